@@ -1,7 +1,12 @@
 //! Tables of changes to annotations.
 
+use chereme_formats::eaf::Transcript;
+use chereme_formats::eaf::convert::{Annotation, Tier, Timing};
 use chereme_formats::table::TableError;
-use chereme_formats::table::annotations::{Moment, TimeUnit, read};
+use chereme_formats::table::annotations::{Moment, TimeUnit, is_export, read, transcript, write};
+use chereme_formats::table::tab_rows;
+use chereme_motion::{Instant, Span};
+use proptest::prelude::*;
 
 /// Reads a table and shows each row or fault as a line.
 fn shown(text: &str) -> String {
@@ -219,4 +224,119 @@ fn elan_exports_are_read() {
         (&*rows[0].0, rows[0].1, rows[0].2),
         ("Person1 (Utterance)", 1_040, 2_330)
     );
+}
+
+#[test]
+fn quotation_marks_that_close_at_no_end_of_a_cell_are_text() {
+    let row = |start: u32, value: &str| format!("G\t\t{start}.0\t{}.5\t0.5\t{value}\n", start);
+    for (written, want) in [
+        (vec!["\"open", "B", "C"], vec!["\"open", "B", "C"]),
+        (
+            vec!["\"open", "B", "end\" C"],
+            vec!["\"open", "B", "end\" C"],
+        ),
+        (
+            vec!["\"he said", "yes\"", "C"],
+            vec!["\"he said", "yes\"", "C"],
+        ),
+        (
+            vec!["A", "\"he said", "well", "yes\""],
+            vec!["A", "\"he said", "well", "yes\""],
+        ),
+        (
+            vec!["A", "\"a\" and \"b\"", "\""],
+            vec!["A", "\"a\" and \"b\"", "\""],
+        ),
+        (vec!["\"Aha!\"", "B"], vec!["\"Aha!\"", "B"]),
+        (vec!["\"a \"\"b\"\" c\"", "B"], vec!["a \"b\" c", "B"]),
+        (vec!["\"two\nlines\"", "B"], vec!["two\nlines", "B"]),
+        (vec!["\"a, b\"", "\"\""], vec!["a, b", ""]),
+    ] {
+        let text: String = (1..).zip(&written).map(|(at, it)| row(at, it)).collect();
+        assert!(is_export(text.as_bytes()), "{text}");
+        let (found, _) = transcript(text.as_bytes()).expect(&text);
+        let found: Vec<&str> = found.tiers[0]
+            .annotations
+            .iter()
+            .map(|it| &*it.value)
+            .collect();
+        assert_eq!(found, want, "{text}");
+    }
+    let quoted = "\"tier\"\t\"start\"\t\"end\"\t\"value\"\n\"G\"\t1\t2\t\"Aha!\"\n\"G\"\t3\t4\t\"a\n\"\"b\tc\"\n";
+    let values: Vec<String> = added(quoted, None).into_iter().map(|it| it.3).collect();
+    assert_eq!(values, ["Aha!", "a\n\"b\tc"]);
+    let comma =
+        "tier,start,end,value\nG,1,2,\"open\nG,3,4,B\nG,5,6,\"a, \"\"b\"\"\"\nG,7,8,\"c\"\n";
+    let values: Vec<String> = added(comma, None).into_iter().map(|it| it.3).collect();
+    assert_eq!(values, ["\"open", "B", "a, \"b\"", "c"]);
+    let (_, findings) = read(comma.as_bytes(), None).expect("a table");
+    let lines: Vec<Option<u64>> = findings.iter().map(|it| it.line).collect();
+    assert_eq!(lines, [Some(2)], "{findings:?}");
+}
+
+#[test]
+fn the_lines_of_rows_count_those_within_cells() {
+    let text = "\n\"a\"\t\"b\nb\"\r\n\r\n\"c\"\t1\n \t\nd";
+    let rows = tab_rows(text);
+    let lines: Vec<(u64, usize)> = rows.iter().map(|it| (it.0, it.1.len())).collect();
+    assert_eq!(lines, [(2, 2), (5, 2), (7, 1)]);
+}
+
+/// A document with a tier for each name and its annotations one after the other, `length` milliseconds each.
+fn document(tiers: Vec<(&str, Vec<String>)>, from: i64, length: i64) -> Transcript {
+    let annotation = |(at, value): (i64, String)| Annotation {
+        id: format!("a{at}"),
+        span: Span::between(
+            Instant::from_millis(from + at * length),
+            Instant::from_millis(from + (at + 1) * length),
+        ),
+        timing: Timing::Own,
+        parent: None,
+        order: 0,
+        value,
+        entry: None,
+        language: None,
+        external_ref: None,
+        millis: None,
+    };
+    let tier = |(name, values): (&str, Vec<String>)| Tier {
+        name: name.to_owned(),
+        annotations: (0..).zip(values).map(annotation).collect(),
+        ..Tier::default()
+    };
+    Transcript {
+        tiers: tiers.into_iter().map(tier).collect(),
+        ..Transcript::default()
+    }
+}
+
+/// The tiers of a document: name, start and end in milliseconds, value.
+fn told(document: &Transcript) -> Vec<(String, i64, i64, String)> {
+    let all = document.tiers.iter().flat_map(|tier| {
+        tier.annotations.iter().map(|it| {
+            let (start, end) = (it.span.start().millis(), it.span.end().millis());
+            (tier.name.clone(), start, end, it.value.clone())
+        })
+    });
+    all.collect()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn tiers_written_as_elan_does_read_back_unchanged(
+        odd in proptest::collection::vec("[ -~é\"\"\t\n\r,;#1.]{0,8}", 1..5),
+        any in proptest::collection::vec("[^\\x00-\\x08\\x0e-\\x1f]{0,12}", 1..4),
+        names in proptest::sample::subsequence(vec!["G", "\"q\" A", "#1", "1", "\"x"], 1..4),
+    ) {
+        let mut tiers: Vec<(&str, Vec<String>)> = names.into_iter().map(|it| (it, odd.clone())).collect();
+        tiers.push(("any", any));
+        let whole = document(tiers, 0, 250);
+        let text = write(&whole);
+        prop_assert!(is_export(text.as_bytes()), "{}", text);
+        let (found, findings) = transcript(text.as_bytes()).expect("what was written");
+        prop_assert_eq!(told(&found), told(&whole), "{}", text);
+        prop_assert!(findings.iter().all(|it| it.message.contains("no titles") || it.message.contains("lines")), "{:?}", findings);
+    }
 }

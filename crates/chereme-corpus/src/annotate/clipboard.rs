@@ -4,7 +4,10 @@
 //! any order and by other names, or no titles and two times in each line; a single column is values, and a line
 //! without tabs one value.
 
+use std::borrow::Cow;
+
 use chereme_formats::table::annotations::Moment;
+use chereme_formats::table::{tab_rows, write_tab_rows};
 use chereme_motion::Instant;
 use chereme_sign::text::fold;
 
@@ -92,13 +95,13 @@ pub enum ClipboardText {
 /// Returns annotations as text, each given as `(tier, start, end, value)` with times in microseconds.
 #[must_use]
 pub fn write<'a>(rows: impl Iterator<Item = (&'a str, i64, i64, String)>) -> String {
-    let mut text = String::from("tier\tstart\tend\tvalue\n");
-    for (tier, start, end, value) in rows {
-        let cells = [cell(tier), seconds(start), seconds(end), cell(&value)];
-        text.push_str(&cells.join("\t"));
-        text.push('\n');
-    }
-    text
+    let titles = ["tier", "start", "end", "value"].map(Cow::Borrowed);
+    let rows = rows.map(|(tier, start, end, value)| {
+        let (start, end) = (seconds(start).into(), seconds(end).into());
+        [tier.into(), start, end, value.into()]
+    });
+    let all: Vec<[Cow<'_, str>; 4]> = std::iter::once(titles).chain(rows).collect();
+    write_tab_rows(&all)
 }
 
 /// Returns a time in seconds, with microseconds if necessary.
@@ -110,17 +113,12 @@ fn seconds(micros: i64) -> String {
     format!("{sign}{whole}.{}", &part[..short.len().max(3)])
 }
 
-fn cell(text: &str) -> String {
-    if text.contains(['\t', '\n', '\r']) || text.starts_with('"') {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
-}
-
 /// Reads a text; `frame` returns the time of a frame in microseconds.
 pub fn read(text: &str, frame: impl Fn(u64) -> Option<i64>) -> ClipboardText {
-    let rows = cells(text);
+    let rows = tab_rows(text).into_iter();
+    let rows: Vec<(usize, Vec<String>)> = rows
+        .map(|(line, cells)| (usize::try_from(line).unwrap_or(usize::MAX), cells))
+        .collect();
     if rows.iter().all(|(_, cells)| cells.len() == 1) {
         let values = rows
             .into_iter()
@@ -266,44 +264,6 @@ fn moment(text: &str, millis: bool) -> Option<Moment> {
     text.parse().ok()
 }
 
-/// Returns the cells of every line that is not blank; a cell in quotes may hold tabs and line breaks.
-fn cells(text: &str) -> Vec<(usize, Vec<String>)> {
-    let mut rows: Vec<(usize, Vec<String>)> = Vec::new();
-    let mut letters = text.chars().peekable();
-    let (mut line, mut began) = (1, 1);
-    let (mut row, mut cell, mut quoted) = (Vec::new(), String::new(), false);
-    let mut end = |row: &mut Vec<String>, cell: &mut String, line| {
-        row.push(std::mem::take(cell));
-        let whole = std::mem::take(row);
-        if whole.iter().any(|it| !it.trim().is_empty()) {
-            rows.push((line, whole));
-        }
-    };
-    while let Some(letter) = letters.next() {
-        match letter {
-            '"' if quoted && letters.peek() == Some(&'"') => {
-                letters.next();
-                cell.push('"');
-            }
-            '"' if quoted => quoted = false,
-            '"' if cell.is_empty() => quoted = true,
-            '\r' if !quoted => {}
-            '\t' if !quoted => row.push(std::mem::take(&mut cell)),
-            '\n' if !quoted => {
-                end(&mut row, &mut cell, began);
-                line += 1;
-                began = line;
-            }
-            other => {
-                line += usize::from(other == '\n');
-                cell.push(other);
-            }
-        }
-    }
-    end(&mut row, &mut cell, began);
-    rows
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -341,7 +301,16 @@ mod tests {
             ("Free", 6_000_000, 7_000_000, ""),
         ];
         let text = write(all.iter().map(|it| (it.0, it.1, it.2, it.3.to_owned())));
-        assert!(text.starts_with("tier\tstart\tend\tvalue\nGloss\t1.250\t1.500001\tMAISON\n"));
+        assert!(text.starts_with("\"tier\"\t\"start\"\t"), "{text}");
+        let plain = write(
+            all[..1]
+                .iter()
+                .map(|it| (it.0, it.1, it.2, it.3.to_owned())),
+        );
+        assert_eq!(
+            plain,
+            "tier\tstart\tend\tvalue\nGloss\t1.250\t1.500001\tMAISON\n"
+        );
         let (found, odd) = rows(&text);
         let want = all.iter().zip([2, 3, 5, 6]);
         let want: Vec<CopiedAnnotation> = want
@@ -356,6 +325,10 @@ mod tests {
         for (text, want) in [
             ("1.5\t2\tA", one(None, 1)),
             ("Gloss\t1,5\t0:02\tA\n", one(Some("Gloss"), 1)),
+            (
+                "tier\tstart\tend\tvalue\nGloss\t1.5\t2\tA\n",
+                one(Some("Gloss"), 2),
+            ),
             ("Value\tEnd\tBegin\r\nA\t2s\t1500ms\r\n", one(None, 2)),
             (
                 "Début\tDurée\tActeur\tGlose\n1.5\t0.5\tG\tA",
@@ -370,6 +343,16 @@ mod tests {
         }
         let (frames, _) = rows("G\tf10\tf20\tB");
         assert_eq!(frames, [said(1, Some("G"), (100_000, 200_000), "B")]);
+    }
+
+    #[test]
+    fn a_quotation_mark_that_does_not_close_swallows_no_lines() {
+        let text = "tier\tstart\tend\tvalue\nNotes\t1.7\t1.8\t\"open\nNotes\t1.9\t2.0\t\"Aha!\"\nNotes\t2.1\t2.2\tend\"\n";
+        let (found, odd) = rows(text);
+        let values: Vec<&str> = found.iter().map(|it| &*it.value).collect();
+        assert_eq!((values, odd), (vec!["\"open", "\"Aha!\"", "end\""], vec![]));
+        let values = vec![(1, "\"open".to_owned()), (2, "B".to_owned())];
+        assert_eq!(read("\"open\nB", |_| None), ClipboardText::Values(values));
     }
 
     #[test]

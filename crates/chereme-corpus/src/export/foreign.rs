@@ -4,6 +4,7 @@ use std::io::Write;
 use std::ops::Range;
 
 use chereme_formats::eaf::Transcript;
+use chereme_formats::table::annotations;
 use chereme_formats::{c3d, gltf, subtitles, textgrid, trc};
 use chereme_motion::{Clip, Instant, Span};
 use chereme_sign::Remedy;
@@ -194,8 +195,7 @@ fn only(
     Ok(first)
 }
 
-/// Writes the tiers of a recording as ELAN's tab-delimited text: tier, participant, begin, end and duration in
-/// two forms each, value.
+/// Writes the tiers of a recording as ELAN's tab-delimited text.
 ///
 /// # Errors
 /// Fails if the rows or files of the recording are damaged, or writing fails.
@@ -205,38 +205,7 @@ pub(super) fn elan_table(
     out: &mut dyn Write,
 ) -> Result<()> {
     let transcript = super::eaf::tiers_of(connection, recording)?;
-    put(out, tab_table(&transcript).as_bytes())
-}
-
-fn tab_table(transcript: &Transcript) -> String {
-    let clock = |ms: i64| {
-        let (seconds, rest) = (ms / 1000, ms % 1000);
-        let (minutes, seconds) = (seconds / 60, seconds % 60);
-        format!(
-            "{:02}:{:02}:{seconds:02}.{rest:03}",
-            minutes / 60,
-            minutes % 60
-        )
-    };
-    let both = |ms: i64| format!("{}\t{}.{:03}", clock(ms), ms / 1000, ms % 1000);
-    let cell = |text: &str| text.replace(['\t', '\r', '\n'], " ");
-    let mut rows = String::new();
-    for tier in &transcript.tiers {
-        let participant = cell(tier.participant.as_deref().unwrap_or_default());
-        for it in &tier.annotations {
-            let span = [it.span.start().millis(), it.span.end().millis()];
-            let [start, end] = it.millis.unwrap_or(span);
-            rows.push_str(&format!(
-                "{}\t{participant}\t{}\t{}\t{}\t{}\n",
-                cell(&tier.name),
-                both(start),
-                both(end),
-                both(end - start),
-                cell(&it.value)
-            ));
-        }
-    }
-    rows
+    put(out, annotations::write(&transcript).as_bytes())
 }
 
 /// Returns the annotations within a span, cut to it, in seconds from its start.

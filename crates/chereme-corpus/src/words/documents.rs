@@ -384,6 +384,14 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "mettez entre guillemets les textes qui contiennent le séparateur, ou nommez les autres colonnes",
     ),
     (
+        "the quotation marks around {text} were left out: a spreadsheet writes them",
+        "les guillemets autour de {text} ont été laissés de côté : un tableur les écrit",
+    ),
+    (
+        "the quotation mark before {text} closes nowhere at the end of a cell; it was taken as text",
+        "le guillemet devant {text} n’est fermé à la fin d’aucune case ; il a été pris comme texte",
+    ),
+    (
         "a cell of this row has more than {n} lines",
         "une case de cette ligne a plus de {n} lignes",
     ),

@@ -88,28 +88,28 @@ impl Cells {
     /// Reads a table whose first row names the columns; shorter rows are padded with empty cells, longer
     /// ones are cut to its width. Both are reported, unless only empty cells are cut.
     pub(crate) fn read(bytes: &[u8], findings: &mut Findings) -> Result<Self, TableError> {
+        Self::read_part(bytes, false, findings)
+    }
+
+    /// Reads a table like [`Self::read`], or the rows in its first bytes if it is `cut`.
+    pub(crate) fn read_part(
+        bytes: &[u8],
+        cut: bool,
+        findings: &mut Findings,
+    ) -> Result<Self, TableError> {
         let text = decode(bytes, findings)?;
         let first = text
             .lines()
             .find(|line| !line.trim().is_empty())
             .ok_or(TableError::Empty)?;
         let delimiter = sniff(first);
-        let mut reader = csv::ReaderBuilder::new()
-            .delimiter(delimiter)
-            .has_headers(false)
-            .flexible(true)
-            .from_reader(text.as_bytes());
         let mut header: Option<Vec<String>> = None;
         let mut rows = Vec::new();
-        let (mut counted, mut line, mut lacking) = (0, 1, 0usize);
-        for record in reader.records().flatten() {
-            let at = start(text.as_bytes(), record.position());
-            line += memchr::memchr_iter(b'\n', &text.as_bytes()[counted..at]).count() as u64;
-            counted = at;
-            if record.iter().all(|cell| cell.trim().is_empty()) {
+        let mut lacking = 0usize;
+        for Row { line, cells } in super::rows::split(&text, delimiter, cut, findings) {
+            if cells.iter().all(|cell| cell.trim().is_empty()) {
                 continue;
             }
-            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
             match &header {
                 None if cells.len() > COLUMNS => {
                     return Err(TableError::Columns {
@@ -139,19 +139,6 @@ impl Cells {
             rows,
         })
     }
-}
-
-/// Returns the byte at which a record's text starts: the position from `csv` may lie before line ends and empty lines.
-fn start(text: &[u8], position: Option<&csv::Position>) -> usize {
-    let at = position.map_or(0, |position| {
-        usize::try_from(position.byte()).unwrap_or(usize::MAX)
-    });
-    let blank = text
-        .get(at..)
-        .unwrap_or_default()
-        .iter()
-        .take_while(|b| matches!(b, b'\r' | b'\n'));
-    (at + blank.count()).min(text.len())
 }
 
 fn fit(mut row: Row, width: usize, findings: &mut Findings) -> Row {
@@ -257,8 +244,12 @@ fn line_of(bytes: &[u8], at: usize) -> u64 {
     memchr::memchr_iter(b'\n', &bytes[..at]).count() as u64 + 1
 }
 
-/// Returns the most frequent delimiter of the first row, outside quotes.
+/// Returns the delimiter of the first row: tabs if there are several, else the most frequent outside quotes.
 fn sniff(line: &str) -> u8 {
+    // A value may hold many commas; a row of ELAN has three tabs, and titles between other delimiters have none.
+    if memchr::memchr_iter(b'\t', line.as_bytes()).count() >= 3 {
+        return b'\t';
+    }
     let mut counts = [(b'\t', 0usize), (b',', 0), (b';', 0), (b'|', 0)];
     let mut quoted = false;
     for b in line.bytes() {

@@ -6,6 +6,8 @@
 
 pub mod annotations;
 mod cells;
+mod rows;
 
 pub use cells::TableError;
 pub(crate) use cells::{COLUMNS, Cells, PADDED, Row, WINDOWS, decode, western};
+pub use rows::{tab_rows, write_tab_rows};

@@ -1,8 +1,11 @@
-//! Reads the tab-delimited text that ELAN exports as tiers.
+//! Reads and writes the tab-delimited text that ELAN exports as tiers.
+
+use std::borrow::Cow;
 
 use chereme_motion::Span;
 
 use super::super::cells::{Cells, TableError};
+use super::super::rows::write_tab_rows;
 use super::columns::Columns;
 use super::{Moment, read};
 use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
@@ -18,7 +21,7 @@ const KIND: &str = "annotation";
 #[must_use]
 pub fn is_export(head: &[u8]) -> bool {
     let head = whole_lines(without_comments(head));
-    let Ok(table) = Cells::read(head, &mut Findings::default()) else {
+    let Ok(table) = Cells::read_part(head, true, &mut Findings::default()) else {
         return false;
     };
     let titled = |name: &str| table.header.iter().any(|it| normal(it).starts_with(name));
@@ -82,6 +85,52 @@ pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError
     Ok((transcript, all))
 }
 
+/// Writes tiers as ELAN's tab-delimited text: tier, participant, begin, end and duration in two forms each, value.
+///
+/// ELAN puts blanks for line ends within values; here values read back unchanged, in quotation marks if necessary.
+#[must_use]
+pub fn write(transcript: &Transcript) -> String {
+    let name = |text: &str| text.replace(['\t', '\r', '\n'], " ").into();
+    let mut rows: Vec<[Cow<'_, str>; 9]> = Vec::new();
+    for tier in &transcript.tiers {
+        for it in &tier.annotations {
+            let span = [it.span.start().millis(), it.span.end().millis()];
+            let [start, end] = it.millis.unwrap_or(span);
+            let times = [start, end, end - start];
+            let [start, end, length] = times.map(|ms| [clock(ms), seconds(ms)].map(Cow::Owned));
+            let [[start, start_s], [end, end_s], [length, length_s]] = [start, end, length];
+            rows.push([
+                name(&tier.name),
+                name(tier.participant.as_deref().unwrap_or_default()),
+                start,
+                start_s,
+                end,
+                end_s,
+                length,
+                length_s,
+                Cow::Borrowed(&it.value),
+            ]);
+        }
+    }
+    write_tab_rows(&rows)
+}
+
+/// Returns milliseconds as `00:00:01.500`.
+fn clock(ms: i64) -> String {
+    let (seconds, rest) = (ms / 1000, ms % 1000);
+    let (minutes, seconds) = (seconds / 60, seconds % 60);
+    format!(
+        "{:02}:{:02}:{seconds:02}.{rest:03}",
+        minutes / 60,
+        minutes % 60
+    )
+}
+
+/// Returns milliseconds as `1.500`.
+fn seconds(ms: i64) -> String {
+    format!("{}.{:03}", ms / 1000, ms % 1000)
+}
+
 /// Sorts the annotations of a tier, ends each before the next begins, and leaves those out for which no time remains.
 fn apart(tier: &mut Tier, findings: &mut Findings) {
     tier.annotations.sort_by_key(|it| it.span.start());
@@ -110,11 +159,15 @@ fn apart(tier: &mut Tier, findings: &mut Findings) {
     }
 }
 
-/// Returns a text without the lines at its beginning that name ELAN's media files.
+/// Returns a text without the lines at its beginning that name ELAN's media files; a line with tabs is a row.
 fn without_comments(mut bytes: &[u8]) -> &[u8] {
     while bytes.starts_with(b"#") || bytes.starts_with(b"\"#") {
         let end = bytes.iter().position(|&it| it == b'\n');
-        bytes = end.map_or(&[], |end| &bytes[end + 1..]);
+        let end = end.map_or(bytes.len(), |end| end + 1);
+        if bytes[..end].contains(&b'\t') {
+            break;
+        }
+        bytes = &bytes[end..];
     }
     bytes
 }

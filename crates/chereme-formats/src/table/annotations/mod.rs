@@ -12,7 +12,7 @@ mod columns;
 mod export;
 mod moment;
 
-pub use export::{is_export, transcript};
+pub use export::{is_export, transcript, write};
 pub use moment::{Moment, MomentError, TimeUnit};
 
 use super::cells::{Cells, Row as RawRow, TableError};
