@@ -1,5 +1,8 @@
 //! A three-way merge of annotation documents.
 
+mod removal;
+mod tiers;
+
 use super::apply::{in_order, loose, revalue};
 use super::identity::{Matching, alike, matched};
 use super::loose::Pieces;
@@ -41,6 +44,7 @@ pub struct Conflict {
 #[must_use]
 pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merged {
     let own = matched(base, mine);
+    let other = matched(base, theirs);
     let mut work = Work {
         base,
         mine,
@@ -52,6 +56,9 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
             .map(|place| (get(base, place).id.clone(), place))
             .collect(),
         own,
+        other,
+        from_base: BTreeMap::new(),
+        from_theirs: BTreeMap::new(),
         pieces: Pieces::of(mine),
         conflicts: Vec::new(),
         brought: Vec::new(),
@@ -72,14 +79,18 @@ pub fn merge(base: &Transcript, mine: &Transcript, theirs: &Transcript) -> Merge
     for annotation in in_order(changes.added.iter()) {
         work.add(annotation);
     }
+    // A place in a chain is given by the sibling before, so the siblings come in the order of their chain.
+    let mut touched: Vec<_> = touched.into_iter().collect();
+    touched.sort_by_key(|(_, [moved, _])| moved.as_ref().map(|it| it.whole.order));
     for (id, [moved, revalued]) in &touched {
         work.change(id, moved.as_ref(), revalued.as_ref());
     }
-    for annotation in in_order(changes.removed.iter()).into_iter().rev() {
-        work.remove(annotation);
-    }
+    work.adopt();
+    work.remove_all(&changes.removed);
+    work.arrange();
     work.make_room();
     work.drop_tiers(&changes.tiers);
+    work.list_orphans();
     work.rest();
     Merged {
         document: work.pieces.whole(),
@@ -182,11 +193,17 @@ struct Work<'w> {
     mine: &'w Transcript,
     theirs: &'w Transcript,
     own: Matching,
+    /// What the base and the other side share.
+    other: Matching,
     names: BTreeMap<String, String>,
     /// The ids in `mine` of the annotations that come from the base.
     known: BTreeSet<String>,
     /// The annotations of the base by id.
     places: BTreeMap<String, AnnotationAddress>,
+    /// The present name of each tier of the base that `mine` still has.
+    from_base: BTreeMap<String, String>,
+    /// The present name of each tier of the other side, if the merged document has the tier.
+    from_theirs: BTreeMap<String, String>,
     pieces: Pieces,
     conflicts: Vec<Conflict>,
     /// Annotations from the other side: the id, its candidate, and my state of it before, if any.
@@ -196,55 +213,6 @@ struct Work<'w> {
 }
 
 impl Work<'_> {
-    fn tiers(&mut self, changes: &super::Difference) {
-        for change in &changes.tiers {
-            let mine = self.tier_of_mine(&change.tier);
-            match change.change {
-                "added" if self.pieces.tier(&change.tier).is_none() => {
-                    let parent = change.parent.clone();
-                    self.pieces.tiers.push((change.whole.clone(), parent));
-                }
-                "renamed" => {
-                    let to = change.to.clone().unwrap_or_default();
-                    if mine.as_deref() == Some(&change.tier) && self.pieces.tier(&to).is_none() {
-                        self.pieces.rename(&change.tier, &to);
-                    }
-                }
-                "changed" => {
-                    let Some(name) = mine else { continue };
-                    let base = self.base.tiers.iter().find(|it| it.name == change.tier);
-                    let Some(base) = base.cloned() else { continue };
-                    let new = change.to.clone().unwrap_or(name.clone());
-                    let found = [name, new, change.whole.name.clone()]
-                        .into_iter()
-                        .find(|name| self.pieces.tier(name).is_some());
-                    let Some((tier, _)) = found.and_then(|name| self.pieces.tier(&name)) else {
-                        continue;
-                    };
-                    let theirs = &change.whole;
-                    take(&mut tier.kind, &base.kind, &theirs.kind);
-                    take(
-                        &mut tier.participant,
-                        &base.participant,
-                        &theirs.participant,
-                    );
-                    take(&mut tier.annotator, &base.annotator, &theirs.annotator);
-                    take(&mut tier.language, &base.language, &theirs.language);
-                    take(&mut tier.locale, &base.locale, &theirs.locale);
-                    take(&mut tier.vocabulary, &base.vocabulary, &theirs.vocabulary);
-                }
-                _ => {}
-            }
-        }
-    }
-
-    /// Returns the name in `mine` of a tier of the base.
-    fn tier_of_mine(&self, name: &str) -> Option<String> {
-        let at = self.base.tiers.iter().position(|it| it.name == name)?;
-        let own = self.own.tiers.get(at).copied().flatten()?;
-        Some(self.mine.tiers[own].name.clone())
-    }
-
     /// Returns an annotation of theirs with the ids and tier names of mine; `None` if its parent or its tier is gone.
     fn translated(&self, annotation: &ComparedAnnotation) -> Option<ComparedAnnotation> {
         let refer = |it: &Above| match it {
@@ -257,16 +225,8 @@ impl Work<'_> {
             None => None,
         };
         new.before = annotation.before.as_ref().and_then(refer);
-        if let Some(name) = self.tier_of_mine(&annotation.tier)
-            && self.tier_now(&name)
-        {
-            new.tier = name;
-        }
-        self.tier_now(&new.tier).then_some(new)
-    }
-
-    fn tier_now(&self, name: &str) -> bool {
-        self.pieces.tiers.iter().any(|(tier, _)| tier.name == name)
+        new.tier = self.from_theirs.get(&annotation.tier)?.clone();
+        Some(new)
     }
 
     fn add(&mut self, annotation: &ComparedAnnotation) {
@@ -365,8 +325,8 @@ impl Work<'_> {
                 fails = true;
             }
         }
-        if loose_own.it.span.end() <= loose_own.it.span.start() && old.span.end() > old.span.start()
-        {
+        let empty = |it: &Annotation| it.span.end() <= it.span.start();
+        if empty(&loose_own.it) && !empty(&old) && !empty(&new.whole) {
             fails = true;
             loose_own.it.span = self.pieces.all[&own].it.span;
         }
@@ -397,7 +357,8 @@ impl Work<'_> {
         };
         let micros = |it: &Annotation| [it.span.start().micros(), it.span.end().micros()];
         let ([a, b], [c, d], [e, f]) = (micros(old), micros(&mine), micros(theirs));
-        let symbolic = old.parent.is_some() && own.above.is_some() && new.whole.millis.is_none();
+        let tier = self.pieces.tiers.iter().find(|it| it.0.name == new.tier);
+        let symbolic = tier.is_some_and(|it| is_chained(&it.0));
         let (start, end) = (merged(a, c, e), merged(b, d, f));
         if !symbolic {
             let instant = chereme_motion::Instant::from_micros;
@@ -412,44 +373,22 @@ impl Work<'_> {
         } else {
             fails = false;
         }
-        let base_tier = before.map(|it| it.tier.clone()).unwrap_or_default();
-        let base_tier = self.tier_of_mine(&base_tier).unwrap_or(base_tier);
-        if own.tier == base_tier && new.tier != base_tier {
+        let base_tier = before.and_then(|it| self.from_base.get(&it.tier));
+        if base_tier.is_none_or(|name| own.tier == *name && new.tier != *name) {
             own.tier.clone_from(&new.tier);
         }
-        if let Some(Above::Known(id)) = &new.above {
-            let known = before.and_then(|it| match &it.above {
-                Some(Above::Known(id)) => self.names.get(id),
-                _ => None,
-            });
-            if own.above.as_ref() == known {
-                let placed = loose(&self.pieces, new, &self.fresh);
-                own.above = Some(id.clone());
-                if symbolic {
-                    own.rank = placed.rank;
-                }
+        let known = before.and_then(|it| match &it.above {
+            Some(Above::Known(id)) => self.names.get(id),
+            _ => None,
+        });
+        if own.above.as_ref() == known {
+            let placed = loose(&self.pieces, new, &self.fresh);
+            own.above = placed.above;
+            if symbolic {
+                own.rank = placed.rank;
             }
         }
         fails
-    }
-
-    fn remove(&mut self, annotation: &ComparedAnnotation) {
-        let Some(own) = self.names.get(&annotation.id).cloned() else {
-            return;
-        };
-        let Some(now) = self.pieces.all.get(&own) else {
-            return;
-        };
-        let same = now.it.value == annotation.value
-            && (alike(&now.it, &annotation.whole) || now.above.is_some());
-        let children = self.pieces.all.values();
-        let mut children = children.filter(|it| it.above.as_deref() == Some(&own));
-        if same && children.next().is_none() {
-            self.pieces.all.remove(&own);
-            return;
-        }
-        let mine = self.state_now(&own);
-        self.conflict(Some(annotation.clone()), mine, None);
     }
 
     /// Reverts additions and moves of the other side that overlap an annotation that mine added or moved; each becomes
@@ -477,7 +416,7 @@ impl Work<'_> {
             let symbolic = self
                 .pieces
                 .tier(&own.tier)
-                .is_some_and(|(tier, _)| tier.stereotype.is_some_and(|it| !it.is_alignable()));
+                .is_some_and(|(tier, _)| is_chained(tier));
             let (start, end) = (own.it.span.start().micros(), own.it.span.end().micros());
             let over = by_tier.get(&own.tier).into_iter().flatten().any(|it| {
                 it.2 != id
@@ -492,14 +431,7 @@ impl Work<'_> {
             }
             match &before {
                 None => {
-                    let below: Vec<String> = self
-                        .pieces
-                        .all
-                        .iter()
-                        .filter(|(_, it)| it.above.as_deref() == Some(&id))
-                        .map(|(id, _)| id.clone())
-                        .collect();
-                    for child in below {
+                    for child in self.below(&id) {
                         let annotation = self.state_now(&child);
                         self.pieces.all.remove(&child);
                         self.conflict(None, None, annotation);
@@ -516,21 +448,6 @@ impl Work<'_> {
                 }
             }
             self.conflict(None, before, Some(annotation));
-        }
-    }
-
-    /// Removes the tiers that theirs removed, if they are empty now.
-    fn drop_tiers(&mut self, changes: &[super::TierChange]) {
-        for change in changes.iter().filter(|it| it.change == "removed") {
-            let Some(name) = self.tier_of_mine(&change.tier) else {
-                continue;
-            };
-            let empty = self.pieces.all.values().all(|it| it.tier != name);
-            let above =
-                |it: &(crate::eaf::convert::Tier, Option<String>)| it.1.as_ref() == Some(&name);
-            if empty && !self.pieces.tiers.iter().any(above) {
-                self.pieces.tiers.retain(|(tier, _)| tier.name != name);
-            }
         }
     }
 
@@ -557,6 +474,11 @@ impl Work<'_> {
             !base.properties.contains(it) || theirs.properties.iter().any(|that| that.0 == it.0)
         };
         own.properties.retain(kept);
+        let gone = |it: &crate::eaf::convert::Vocabulary| {
+            base.vocabularies.contains(it)
+                && theirs.vocabularies.iter().all(|that| that.id != it.id)
+        };
+        own.vocabularies.retain(|it| !gone(it));
         for vocabulary in &theirs.vocabularies {
             let old = base.vocabularies.iter().find(|it| it.id == vocabulary.id);
             match own
@@ -617,6 +539,11 @@ impl Work<'_> {
             before: None,
         })
     }
+}
+
+/// Reports whether the annotations of a tier have a place below a parent instead of times.
+fn is_chained(tier: &crate::eaf::convert::Tier) -> bool {
+    tier.stereotype.is_some_and(|it| !it.is_alignable())
 }
 
 /// Takes the value of theirs if mine still has that of the base.

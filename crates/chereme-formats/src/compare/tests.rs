@@ -1,5 +1,7 @@
 //! Tests of differences and merges of annotation documents: cases by hand, and laws under random changes.
 
+mod unchanged_side;
+
 use super::{Difference, Merged, apply, diff, merge, merge_two, with_candidates};
 use crate::eaf::Transcript;
 use crate::eaf::convert::{Annotation, AnnotationAddress, Tier, Timing};
