@@ -277,6 +277,11 @@ impl MotionTrack {
         usize::try_from(self.row.frames).unwrap_or_default()
     }
 
+    /// Returns the joint roles that a person set.
+    pub(crate) fn roles(&self) -> Option<Roles> {
+        self.row.roles.as_deref()?.parse().ok()
+    }
+
     /// Returns whether the numbers came from a BVH file, so that they can be written unchanged.
     pub(crate) fn is_of_bvh(&self) -> bool {
         self.exact.is_none()

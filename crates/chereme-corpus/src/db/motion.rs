@@ -43,6 +43,14 @@ pub(crate) fn insert_block(
     Ok(())
 }
 
+/// Removes the blocks of a track; their bytes stay.
+pub(crate) fn remove_blocks(connection: &Connection, track: i64) -> Result<()> {
+    connection
+        .prepare_cached("DELETE FROM track_block WHERE track_id = ?1")?
+        .execute([track])?;
+    Ok(())
+}
+
 /// Stores the bytes of a block unless they are stored already, and returns its name.
 fn insert_bytes(connection: &Connection, data: &[u8]) -> Result<Vec<u8>> {
     let hash = Sha256::digest(data).to_vec();

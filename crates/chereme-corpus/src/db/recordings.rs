@@ -580,6 +580,26 @@ pub(crate) fn set_root(
     Ok(())
 }
 
+/// Writes again how a motion track's numbers are read: unit, axes, root, joint roles and channel groups.
+pub(crate) fn update_reading(connection: &Connection, row: &MotionTrackRow) -> Result<()> {
+    connection
+        .prepare_cached(
+            "UPDATE track SET metres_per_unit = ?2, axes = ?3, root_order = ?4, root_scale = ?5, roles = ?6,
+                 channel_groups = ?7
+             WHERE id = ?1",
+        )?
+        .execute(params![
+            row.id,
+            row.metres_per_unit,
+            row.axes,
+            row.root_order,
+            row.root_scale,
+            row.roles,
+            row.channel_groups
+        ])?;
+    Ok(())
+}
+
 /// Returns `name`, or the first of `name (2)`, `name (3)` … that no recording has.
 pub(crate) fn free_name(connection: &Connection, name: &str) -> Result<String> {
     let mut free = name.to_owned();

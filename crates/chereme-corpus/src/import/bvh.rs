@@ -1,5 +1,8 @@
 //! Imports motion files: a recording with its skeleton and its movement, every number stored exactly.
 
+mod again;
+mod root;
+
 use std::fs::File;
 use std::sync::Arc;
 
@@ -12,12 +15,12 @@ use chereme_motion::ends::Ends;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Convention, ModelPose, Rate, Side, Skeleton};
 use chereme_sign::{Choice, Remedy};
-use serde_json::json;
 use sha2::{Digest, Sha256};
 
+use super::again::{groups_json, set_hand};
 use super::report::ReportFinding;
 use super::understood::{BodyRead, ConventionRead, JointRole, MovementRead, RootRead};
-use super::{FileReport, FileStatus, Job, eaf};
+use super::{FileReport, FileStatus, ImportOptions, Job, eaf};
 use crate::address;
 use crate::db::motion::hex;
 use crate::db::recordings::{self, MotionTrackRow, RecordingRow};
@@ -27,34 +30,30 @@ use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 
+use root::{mend_order, mend_root, root_order, root_read, root_scale};
+
 /// The number of frames in a header above which it is taken for damaged.
 const MOST_DECLARED: u64 = 1_000_000_000;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     if let Some(report) = known(job)? {
-        return Ok(report);
+        return match job.again.filter(|_| job.options.reads_movement()) {
+            Some(recording) => again::read(job, recording, report, progress),
+            None => Ok(report),
+        };
     }
-    let file = File::open(job.path).map_err(|error| Error::file(job.path, error))?;
-    let size = file
-        .metadata()
-        .map_err(|error| Error::file(job.path, error))?
-        .len();
-    let options = Options {
-        block_frames: BLOCK_FRAMES,
-    };
-    let mut reader = Reader::open_with(file, options).map_err(wrong)?;
-    let mut block = Block::default();
-    let mut more = reader.next_block(&mut block).map_err(wrong)?;
+    let Opened {
+        mut reader,
+        size,
+        mut block,
+        mut more,
+        mut hierarchy,
+        mut bones,
+        rate,
+    } = open(job)?;
     let mut report = FileReport::new(job.path, FileStatus::Imported);
-    let mut hierarchy = reader.hierarchy().clone();
-    let mut bones = Bones::new(&hierarchy);
-    bones.push(&block);
-    bones.place(&mut hierarchy);
     let frame_time = reader.header().frame_time.clone();
-    let rate = convert::rate(frame_time.as_ref()).map_err(|error| {
-        Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
-    })?;
-    let found = understand(job, &hierarchy, &block, rate, &mut report)?;
+    let found = understand(job.options, &hierarchy, &block, rate, &mut report)?;
     let declared = reader.header().declared_frames;
     let plausible = declared.filter(|frames| *frames <= MOST_DECLARED);
     let length = plausible.and_then(|frames| usize::try_from(frames).ok());
@@ -68,11 +67,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         frame_time.map(|time| time.to_string()),
         &found,
     )?;
-    let groups: Vec<(ChannelGroup, Vec<usize>)> = found
-        .groups
-        .iter()
-        .map(|(group, joints)| (*group, movement::columns_of(&hierarchy, joints)))
-        .collect();
+    let groups = found.column_groups(&hierarchy);
     while more {
         let first = usize::try_from(block.first_frame).unwrap_or(usize::MAX);
         movement::store_block(
@@ -114,9 +109,56 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
     report_odd_frames(job, recording, &mut report)?;
-    super::tracks::keep_beside(job, recording, track, &found.anatomy, &mut report)?;
+    let offset_us = job.options.offset_us;
+    let kept = super::tracks::keep_beside(job, track, offset_us, &found.anatomy, &mut report)?;
+    job.count("tracks", usize::from(kept.is_some()));
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     Ok(report)
+}
+
+/// A BVH file with its first block of frames.
+struct Opened {
+    reader: Reader<File>,
+    /// The number of bytes of the file.
+    size: u64,
+    block: Block,
+    /// Whether the block holds frames.
+    more: bool,
+    /// The skeleton, with the joints where the first block puts them.
+    hierarchy: Hierarchy,
+    bones: Bones,
+    rate: Rate,
+}
+
+/// Opens a BVH file and reads its first block.
+fn open(job: &Job<'_>) -> Result<Opened> {
+    let file = File::open(job.path).map_err(|error| Error::file(job.path, error))?;
+    let size = file
+        .metadata()
+        .map_err(|error| Error::file(job.path, error))?
+        .len();
+    let options = Options {
+        block_frames: BLOCK_FRAMES,
+    };
+    let mut reader = Reader::open_with(file, options).map_err(wrong)?;
+    let mut block = Block::default();
+    let more = reader.next_block(&mut block).map_err(wrong)?;
+    let mut hierarchy = reader.hierarchy().clone();
+    let mut bones = Bones::new(&hierarchy);
+    bones.push(&block);
+    bones.place(&mut hierarchy);
+    let rate = convert::rate(reader.header().frame_time.as_ref()).map_err(|error| {
+        Error::wrong(error.to_string()).advise("correct the line `Frame Time:` of the file")
+    })?;
+    Ok(Opened {
+        reader,
+        size,
+        block,
+        more,
+        hierarchy,
+        bones,
+        rate,
+    })
 }
 
 /// Returns the report of movement that was imported before, from the same path, or under the same name by an earlier
@@ -132,6 +174,7 @@ fn known(job: &mut Job<'_>) -> Result<Option<FileReport>> {
     };
     let elsewhere = row.path.take().filter(|path| *path != job.place);
     let mut report = FileReport::unchanged(job.path, elsewhere.as_deref());
+    job.again = row.recording_id;
     if let Some(id) = row.recording_id {
         report.recording = Some(recordings::recording(job.connection, id)?.name);
     }
@@ -260,14 +303,24 @@ struct Understood {
     first: Block,
 }
 
+impl Understood {
+    /// Returns the columns of the file that belong to each channel group.
+    fn column_groups(&self, hierarchy: &Hierarchy) -> Vec<(ChannelGroup, Vec<usize>)> {
+        let columns = |joints: &Vec<usize>| movement::columns_of(hierarchy, joints);
+        let groups = self.groups.iter();
+        groups
+            .map(|(group, joints)| (*group, columns(joints)))
+            .collect()
+    }
+}
+
 fn understand(
-    job: &Job<'_>,
+    options: &ImportOptions,
     hierarchy: &Hierarchy,
     block: &Block,
     rate: Rate,
     report: &mut FileReport,
 ) -> Result<Understood> {
-    let options = job.options;
     let first = first_frame(hierarchy, block, rate, None)?;
     let skeleton: &Arc<Skeleton> = first.skeleton();
     let roles = options.roles.clone().unwrap_or_default();
@@ -524,7 +577,9 @@ pub(super) fn insert_recording(
             let new = recordings::find_signer(job.connection, name)?.is_none();
             job.count("signers", usize::from(new));
             let hand = options.handedness.as_deref();
-            Some(recordings::signer_named(job.connection, name, hand)?)
+            let signer = recordings::signer_named(job.connection, name, hand)?;
+            set_hand(job, signer, report)?;
+            Some(signer)
         }
         None => None,
     };
@@ -565,11 +620,6 @@ fn insert_track(
     let (hash, document) = stored_as(hierarchy)?;
     let joints = hierarchy.joints.len();
     let skeleton_id = recordings::skeleton_stored(job.connection, &hash, joints, &document)?;
-    let groups: std::collections::BTreeMap<&str, &Vec<usize>> = found
-        .groups
-        .iter()
-        .map(|(group, joints)| (group.name(), joints))
-        .collect();
     job.count("tracks", 1);
     recordings::insert_motion_track(
         job.connection,
@@ -592,7 +642,7 @@ fn insert_track(
                 .roles
                 .as_ref()
                 .and_then(|roles| serde_json::to_string(roles).ok()),
-            channel_groups: json!(groups).to_string(),
+            channel_groups: groups_json(&found.groups),
         },
     )
 }
@@ -604,63 +654,5 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     let end = end.shifted(job.options.offset_us);
     recordings::lengthen(job.connection, recording, end.micros())?;
     job.keep(Some(recording), None)?;
-    Ok(())
-}
-
-/// Returns the factor for the root's positions that makes the legs reach the ground, if it is a ratio of common units,
-/// such as metres for the root and centimetres for the bones.
-fn root_scale(first: &Clip, anatomy: &Anatomy, up: DVec3) -> Option<f64> {
-    let rest = first.skeleton().rest_model_pose();
-    let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));
-    let [Some(right), Some(left)] = feet else {
-        return None;
-    };
-    let leg = rest
-        .position(0)
-        .distance(rest.position(right).midpoint(rest.position(left)));
-    first.channel(0).translations.as_ref()?;
-    first.frames().checked_sub(1)?;
-    let height = first.translation(0, 0).dot(up).abs();
-    let ratio = leg / height;
-    [0.001, 0.01, 100.0, 1000.0]
-        .into_iter()
-        .find(|step| (step / 2.0..step * 2.0).contains(&ratio))
-}
-
-/// Returns the remedy for root columns in another order or unit than the header states.
-fn mend_order() -> Remedy {
-    Remedy::choice(
-        Choice::RootOrder,
-        "import it with --mend-root to read it so; the stored numbers stay the file's",
-    )
-}
-
-fn mend_root(
-    job: &Job<'_>,
-    track: i64,
-    fix: Option<ChannelFix>,
-    scale: Option<f64>,
-    report: &mut FileReport,
-) -> Result<()> {
-    let order = fix.map(|ChannelFix::RotationBeforePosition| "rotation-before-position");
-    if job.options.mend_root {
-        if order.is_some() || scale.is_some() {
-            recordings::set_root(job.connection, track, order, scale)?;
-        }
-        report.understood.root = Some(RootRead {
-            root_order: order.unwrap_or("as in the header"),
-            root_scale: scale.unwrap_or(1.0),
-        });
-        return Ok(());
-    }
-    if let Some(scale) = scale {
-        report.findings.push(ReportFinding::warning(
-            format!(
-                "the root seems to be in another unit than the bones: its positions times {scale} would \
-                 put the feet on the ground"
-            ),
-            mend_order(),
-        ));
-    }
     Ok(())
 }

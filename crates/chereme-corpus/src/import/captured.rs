@@ -8,16 +8,22 @@ use chereme_formats::eaf::Transcript;
 use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks};
 use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
-use chereme_motion::{Anatomy, Convention};
+use chereme_motion::{Anatomy, Convention, Skeleton};
 use chereme_sign::{Choice, Remedy};
 
 use super::readers::Parse;
 use super::report::ReportFinding;
 use super::understood::MovementRead;
-use super::{FileReport, FileStatus, Job, bvh, eaf, inventory, lexicon, notated, points, tracks};
+use super::{
+    FileReport, FileStatus, ImportOptions, Job, again, bvh, eaf, inventory, lexicon, notated,
+    points, tracks,
+};
+use crate::db::motion;
+use crate::db::recordings::MotionTrackRow;
 use crate::error::{Error, Result};
+use crate::movement;
 use crate::progress::Progress;
-use crate::track::{NewTrack, SkeletonTrack, Track};
+use crate::track::{NewTrack, SkeletonTrack, Track, store};
 
 /// The number of bytes that are enough to see whether a table or JSON document holds curves.
 const HEAD: usize = 1 << 14;
@@ -145,39 +151,24 @@ fn scene(
     progress: &mut Progress<'_>,
     read: impl FnOnce(&[u8]) -> std::result::Result<(Scene, Vec<Finding>), String>,
 ) -> Result<FileReport> {
-    if let Some(report) = job.unchanged() {
-        return Ok(report);
+    let known = job.unchanged();
+    if let Some(report) = &known
+        && !job.options.reads_movement()
+    {
+        return Ok(report.clone());
     }
     let bytes = job.bytes()?;
     job.report_progress(progress)?;
     let (scene, findings) = read(&bytes).map_err(Error::wrong)?;
     job.report_progress(progress)?;
+    if let Some((report, recording)) = known.zip(job.again) {
+        return read_again(job, recording, &scene, report);
+    }
     let mut report = begun(job, findings);
     let skeleton = scene.clip.skeleton().clone();
-    let roles = job.options.roles.clone().unwrap_or_default();
-    let anatomy = Anatomy::with_roles(&skeleton, &roles).map_err(|error| {
-        Error::wrong(error.to_string()).advise(Remedy::choice(
-            Choice::JointRoles,
-            "correct the roles file (--roles), or leave it out",
-        ))
-    })?;
-    let convention = facing(job, &scene, &anatomy, &mut report);
-    let unit = match convention.metres_per_unit {
-        1.0 => "m",
-        0.01 => "cm",
-        0.001 => "mm",
-        _ => "of its own",
-    };
-    report.understood.movement = Some(MovementRead {
-        joints: skeleton.len(),
-        channels: None,
-        frame_rate: scene.clip.rate().to_string(),
-        unit,
-        metres_per_unit: convention.metres_per_unit,
-        axes: convention.axes.to_string(),
-        guess: None,
-    });
-    bvh::describe_anatomy(&mut report, &skeleton, &anatomy);
+    let anatomy = body(job.options, &skeleton)?;
+    let convention = facing(job.options, &scene, &anatomy, &mut report);
+    describe(&scene, convention, &anatomy, &mut report);
     let moves = scene.clip.frames() > 1;
     let rate = scene.clip.rate();
     let mut markers = tracks::Beside::of(&skeleton, &anatomy);
@@ -209,15 +200,99 @@ fn scene(
     Ok(report)
 }
 
+/// Returns the parts of the body of a skeleton.
+fn body(options: &ImportOptions, skeleton: &Skeleton) -> Result<Anatomy> {
+    let roles = options.roles.clone().unwrap_or_default();
+    Anatomy::with_roles(skeleton, &roles).map_err(|error| {
+        Error::wrong(error.to_string()).advise(Remedy::choice(
+            Choice::JointRoles,
+            "correct the roles file (--roles), or leave it out",
+        ))
+    })
+}
+
+/// Adds the interpretation of a scene to the report.
+fn describe(scene: &Scene, convention: Convention, anatomy: &Anatomy, report: &mut FileReport) {
+    let skeleton = scene.clip.skeleton();
+    let unit = match convention.metres_per_unit {
+        1.0 => "m",
+        0.01 => "cm",
+        0.001 => "mm",
+        _ => "of its own",
+    };
+    report.understood.movement = Some(MovementRead {
+        joints: skeleton.len(),
+        channels: None,
+        frame_rate: scene.clip.rate().to_string(),
+        unit,
+        metres_per_unit: convention.metres_per_unit,
+        axes: convention.axes.to_string(),
+        guess: None,
+    });
+    bvh::describe_anatomy(report, skeleton, anatomy);
+}
+
+/// Reads the movement of a recording again as the options say; its numbers, annotations and other tracks stay.
+fn read_again(
+    job: &mut Job<'_>,
+    recording: i64,
+    scene: &Scene,
+    mut report: FileReport,
+) -> Result<FileReport> {
+    let Some(standing) = again::own_track(job, recording, false, &mut report)? else {
+        return Ok(report);
+    };
+    let was = &standing.track;
+    let skeleton = scene.clip.skeleton();
+    let mut fresh = FileReport::new(job.path, FileStatus::Updated);
+    let earlier = ImportOptions {
+        roles: was.roles(),
+        ..ImportOptions::default()
+    };
+    let guess = facing(&earlier, scene, &body(&earlier, skeleton)?, &mut fresh);
+    fresh.findings.clear();
+    let options = again::options_again(job.options, was, guess);
+    let anatomy = body(&options, skeleton)?;
+    let convention = facing(&options, scene, &anatomy, &mut fresh);
+    describe(scene, convention, &anatomy, &mut fresh);
+    let groups = movement::channel_groups(skeleton, &anatomy);
+    let row = MotionTrackRow {
+        metres_per_unit: convention.metres_per_unit,
+        axes: convention.axes.to_string(),
+        roles: options
+            .roles
+            .as_ref()
+            .and_then(|roles| serde_json::to_string(roles).ok()),
+        channel_groups: again::groups_json(&groups),
+        ..was.row.clone()
+    };
+    if row.channel_groups != was.row.channel_groups {
+        motion::remove_blocks(job.connection, row.id)?;
+        store::skeleton_blocks(job.connection, row.id, &groups, &scene.clip)?;
+    }
+    again::apply(job, &standing, &row, &anatomy, &mut report)?;
+    report.understood = fresh.understood;
+    if report.status == FileStatus::Updated {
+        report.findings.extend(fresh.findings);
+        bvh::report_odd_frames(job, recording, &mut report)?;
+    }
+    Ok(report)
+}
+
 /// Returns unit and axes: the caller's if given, otherwise the file's, with the left side corrected by the body's
 /// joints. A unit that makes the body a giant or a dwarf is corrected by a power of ten.
-fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy, report: &mut FileReport) -> Convention {
+fn facing(
+    options: &ImportOptions,
+    scene: &Scene,
+    anatomy: &Anatomy,
+    report: &mut FileReport,
+) -> Convention {
     let stated = scene.convention;
     let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
     let found = anatomy.convention(scene.clip.skeleton(), pose.as_ref());
     let axes = found.convention.axes;
     let agrees = axes.up() == stated.axes.up() && found.confidence >= bvh::SURE;
-    let metres_per_unit = job.options.metres_per_unit.unwrap_or_else(|| {
+    let metres_per_unit = options.metres_per_unit.unwrap_or_else(|| {
         let stature = anatomy.measures().map(|it| it.stature * stated.metres_per_unit);
         let step = stature.map_or(1.0, scale_of_body);
         if step != 1.0 {
@@ -233,8 +308,7 @@ fn facing(job: &Job<'_>, scene: &Scene, anatomy: &Anatomy, report: &mut FileRepo
     });
     Convention {
         metres_per_unit,
-        axes: job
-            .options
+        axes: options
             .axes
             .unwrap_or(if agrees { axes } else { stated.axes }),
     }

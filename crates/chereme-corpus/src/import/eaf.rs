@@ -14,6 +14,7 @@ use chereme_sign::TierRole;
 use chereme_sign::{Choice, Remedy};
 use serde_json::json;
 
+use super::again::set_hand;
 use super::readers::Parse;
 use super::report::{Outcome, ReportFinding};
 use super::understood::TiersRead;
@@ -67,9 +68,11 @@ pub(super) fn import_as(
 ) -> Result<FileReport> {
     let maps = job.options.mapping.entries().next().is_some();
     let here = job.places.at(&job.place, job.kind).cloned();
-    if let Some(here) = here.filter(|row| row.hash == job.hash && !maps)
+    let takes = job.options.own_edits == OwnEdits::Theirs;
+    if let Some(here) = here.filter(|row| row.hash == job.hash && !maps && !takes)
         && let Some(report) = target::unchanged(job, &here)?
     {
+        job.again = here.recording_id;
         return Ok(report);
     }
     let bytes = job.bytes()?;
@@ -84,12 +87,20 @@ pub(super) fn import_as(
     let guesses = guess(job, &transcript, &mut report)?;
     report.understood.tiers = Some(TiersRead::Guessed(guesses.clone()).into());
     let target = target::find(job, read, &transcript, &mut report)?;
-    let recording = recording(job, &transcript, target.recording, &mut report)?;
-    know_participants(job, &transcript)?;
+    let same = target.base.as_ref().is_some_and(|it| it.hash == job.hash);
+    job.again = target.recording.filter(|_| same);
+    let recording = match job.again {
+        Some(again) => again,
+        None => {
+            let recording = recording(job, &transcript, target.recording, &mut report)?;
+            know_participants(job, &transcript)?;
+            recording
+        }
+    };
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     let base = target.transcript(job, read)?;
     let there = standing_tiers(job, recording, (&transcript, base.as_ref()), &mut report)?;
-    if let Some(base) = target.base.as_ref().filter(|base| base.hash == job.hash) {
+    if let Some(base) = target.base.as_ref().filter(|_| same && !takes) {
         if remap(job, &there, &transcript, &guesses, &mut report)? == 0 {
             let mut same = FileReport::unchanged(job.path, target.elsewhere(job));
             same.recording = report.recording;
@@ -108,6 +119,7 @@ pub(super) fn import_as(
         return Ok(report);
     }
     warn_of_length(job, recording, &transcript, &mut report)?;
+    let counted = job.counts.total();
     let before = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     if there.is_empty() {
         let tiers = write_tiers(job, (recording, &there), &transcript, &guesses, &mut report)?;
@@ -130,7 +142,16 @@ pub(super) fn import_as(
     tokens::derive_with_progress(job.connection, recording, None, &job.inventories, progress)?;
     let derived = crate::db::signs::tokens_of_recording(job.connection, recording)?.len();
     job.count("tokens", derived.saturating_sub(before));
-    job.keep(Some(recording), Some(&bytes))?;
+    if same && job.counts.total() == counted {
+        let mut unchanged = FileReport::unchanged(job.path, target.elsewhere(job));
+        unchanged.recording = report.recording;
+        return Ok(unchanged);
+    }
+    if same {
+        report.status = FileStatus::Updated;
+    } else {
+        job.keep(Some(recording), Some(&bytes))?;
+    }
     if !guesses
         .iter()
         .any(|guess| guess.role == Some(TierRole::Gloss))
@@ -332,11 +353,9 @@ fn recording(
             let hand = hand.filter(|hand| ["right", "left"].contains(&hand.as_str()));
             let new = recordings::find_signer(job.connection, &name)?.is_none();
             job.count("signers", usize::from(new));
-            Some(recordings::signer_named(
-                job.connection,
-                &name,
-                hand.as_deref(),
-            )?)
+            let signer = recordings::signer_named(job.connection, &name, hand.as_deref())?;
+            set_hand(job, signer, report)?;
+            Some(signer)
         }
         None => None,
     };

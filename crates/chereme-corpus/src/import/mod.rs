@@ -3,6 +3,7 @@
 //! One import is one operation, however many files it reads. A file that is refused leaves nothing behind and does not
 //! prevent the others from being imported.
 
+mod again;
 mod bvh;
 mod captured;
 mod clock;
@@ -149,6 +150,8 @@ struct Job<'a> {
     steps: u64,
     /// The recording of the only motion file in this file's folder, if the folder holds one take.
     folder_take: Option<i64>,
+    /// The recording that the file became, if the corpus has the same file already.
+    again: Option<i64>,
 }
 
 impl Job<'_> {
@@ -168,11 +171,12 @@ impl Job<'_> {
     }
 
     /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path.
-    fn unchanged(&self) -> Option<FileReport> {
+    fn unchanged(&mut self) -> Option<FileReport> {
         let known = self
             .places
             .hashed(&self.hash)
             .find(|row| row.kind == self.kind)?;
+        self.again = known.recording_id;
         let elsewhere = known.path.as_deref().filter(|path| *path != self.place);
         Some(FileReport::unchanged(self.path, elsewhere))
     }
@@ -440,11 +444,15 @@ impl Import<'_> {
             named,
             steps: 0,
             folder_take: None,
+            again: None,
         };
         if !named && self.one_take.contains(path) {
             job.folder_take = job.places.movement_beside(&job.place);
         }
-        let done = READERS[reader].import(&mut job, progress)?;
+        let mut done = READERS[reader].import(&mut job, progress)?;
+        if let Some(recording) = job.again.filter(|_| done.status != FileStatus::Refused) {
+            again::describe(&mut job, recording, &mut done)?;
+        }
         // Files that add inventories make the next file load the inventories again.
         let same = Rc::ptr_eq(&job.inventories, &inventories) && READERS[reader].keeps_inventories;
         let counts = job.counts;

@@ -157,6 +157,12 @@ impl Counts {
         *self.created.entry(what).or_default() += many as u64;
     }
 
+    /// Returns the number of all rows.
+    pub(super) fn total(&self) -> u64 {
+        let all = [&self.created, &self.changed, &self.removed];
+        all.into_iter().flat_map(|counts| counts.values()).sum()
+    }
+
     pub(super) fn changed(&mut self, what: &'static str, many: usize) {
         *self.changed.entry(what).or_default() += many as u64;
     }

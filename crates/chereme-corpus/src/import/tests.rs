@@ -4,6 +4,7 @@ mod again;
 mod captured;
 mod film;
 mod lexicon;
+mod reading;
 
 use std::path::{Path, PathBuf};
 

@@ -117,16 +117,16 @@ fn length_us(track: &Track) -> i64 {
     }
 }
 
-/// Stores the optical markers among the skeleton's leaf joints as a track of points.
+/// Stores the optical markers among the skeleton's leaf joints as a track of points, and returns that.
 pub(super) fn keep_beside(
-    job: &mut Job<'_>,
-    recording: i64,
+    job: &Job<'_>,
     track: i64,
+    offset_us: i64,
     anatomy: &Anatomy,
     report: &mut FileReport,
-) -> Result<()> {
+) -> Result<Option<i64>> {
     if anatomy.markers().is_empty() {
-        return Ok(());
+        return Ok(None);
     }
     let stored = movement::MotionTrack::of_row(job.connection, track)?;
     let frames = stored.frames();
@@ -137,21 +137,21 @@ pub(super) fn keep_beside(
             "the markers beside the skeleton are too many to be kept as a track of points; they stay its joints",
             "cut the take into shorter files",
         ));
-        return Ok(());
+        return Ok(None);
     }
     for start in (0..frames).step_by(8 * BLOCK_FRAMES) {
         let part = start..(start + 8 * BLOCK_FRAMES).min(frames);
         beside.push(&stored.raw_clip(job.connection, part)?);
     }
-    if let Some(markers) = beside.track(stored.rate, stored.convention) {
-        let new = NewTrack {
-            offset_us: job.options.offset_us,
-            ..NewTrack::new("markers", Track::Markers(markers))
-        };
-        store::store(job.connection, recording, &new)?;
-        job.count("tracks", 1);
-    }
-    Ok(())
+    let Some(markers) = beside.track(stored.rate, stored.convention) else {
+        return Ok(None);
+    };
+    let new = NewTrack {
+        offset_us,
+        ..NewTrack::new("markers", Track::Markers(markers))
+    };
+    let id = store::store(job.connection, stored.row.recording_id, &new)?;
+    Ok(Some(id))
 }
 
 /// The largest number of marker positions beside a skeleton that are stored as a track.

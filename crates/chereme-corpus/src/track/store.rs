@@ -305,19 +305,27 @@ fn skeleton_track(
     let track = recordings::insert_motion_track(connection, &row)?;
     let layout = Layout::of(clip);
     tracks::set_layout(connection, track, &json!(layout).to_string())?;
-    for (group, joints) in &groups {
+    skeleton_blocks(connection, track, &groups, clip)?;
+    Ok(track)
+}
+
+/// Stores the numbers of a skeleton's movement, group by group.
+pub(crate) fn skeleton_blocks(
+    connection: &Connection,
+    track: i64,
+    groups: &BTreeMap<movement::ChannelGroup, Vec<usize>>,
+    clip: &chereme_motion::Clip,
+) -> Result<()> {
+    let layout = Layout::of(clip);
+    for (group, joints) in groups {
         let columns: Vec<Column> = joints
             .iter()
             .flat_map(|&joint| layout.columns(clip, joint))
             .collect();
-        blocks(
-            connection,
-            track,
-            group.name(),
-            &columns.iter().collect::<Vec<_>>(),
-        )?;
+        let columns: Vec<&Column> = columns.iter().collect();
+        blocks(connection, track, group.name(), &columns)?;
     }
-    Ok(track)
+    Ok(())
 }
 
 /// Returns the document of a skeleton: like that of a BVH file without channels, plus the rest rotations.

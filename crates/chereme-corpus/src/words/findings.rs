@@ -208,4 +208,68 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "les fichiers qui sont lus finissent par {endings}",
     ),
     ("write one of {values}", "écrivez l’un de {values}"),
+    (
+        "signer: {now} (before: {then})",
+        "signeur : {now} (avant : {then})",
+    ),
+    (
+        "origin: {now} (before: {then})",
+        "origine : {now} (avant : {then})",
+    ),
+    (
+        "licence: {now} (before: {then})",
+        "licence : {now} (avant : {then})",
+    ),
+    (
+        "dominant hand of {name}: {now} (before: {then})",
+        "main dominante de {name} : {now} (avant : {then})",
+    ),
+    (
+        "its recording has no signer, so no signer has the dominant hand now",
+        "son enregistrement n’a pas de signeur, donc aucun signeur n’a maintenant la main dominante",
+    ),
+    (
+        "name the signer, too, with --signer",
+        "nommez aussi le signeur, avec --signer",
+    ),
+    (
+        "it is in the corpus already, so {option} has no effect",
+        "il est déjà dans le corpus, donc {option} est sans effet",
+    ),
+    (
+        "move its tracks with `chereme track`; or `chereme undo` its first import, and import it again",
+        "déplacez ses pistes avec `chereme track` ; ou annulez son premier import avec `chereme undo`, et importez-le de nouveau",
+    ),
+    (
+        "it was not read again: its recording has {n} skeletons of such files, which leaves open which one is of this file",
+        "il n’a pas été relu : son enregistrement a {n} squelettes de tels fichiers, et on ne sait pas lequel est le sien",
+    ),
+    (
+        "to read it in another manner, import a copy of it under another name",
+        "pour le lire d’une autre manière, importez-en une copie sous un autre nom",
+    ),
+    (
+        "it was imported before: its movement was read again, as the options say",
+        "il a été importé auparavant : son mouvement a été relu, comme les options le disent",
+    ),
+    (
+        "unit of length: {now} m (before: {then} m)",
+        "unité de longueur : {now} m (avant : {then} m)",
+    ),
+    (
+        "axes up,left: {now} (before: {then})",
+        "axes haut,gauche : {now} (avant : {then})",
+    ),
+    (
+        "the parts of the body are those of the roles file",
+        "les parties du corps sont celles du fichier de rôles",
+    ),
+    (
+        "order of the root's columns: {now} (before: {then})",
+        "ordre des colonnes de la racine : {now} (avant : {then})",
+    ),
+    (
+        "factor for the root's positions: {now} (before: {then})",
+        "facteur des positions de la racine : {now} (avant : {then})",
+    ),
 ];
