@@ -272,4 +272,12 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "factor for the root's positions: {now} (before: {then})",
         "facteur des positions de la racine : {now} (avant : {then})",
     ),
+    (
+        "{n} annotations without text are not in the TextGrid, where an empty interval is a gap; an .eaf keeps them",
+        "{n} annotations sans texte ne sont pas dans le TextGrid, où un intervalle vide est un trou ; un .eaf les garde",
+    ),
+    (
+        "{text} at {time} on {name} overlaps others; in the TextGrid it starts at {start}",
+        "{text} à {time} sur {name} en chevauche d’autres ; dans le TextGrid elle commence à {start}",
+    ),
 ];

@@ -172,11 +172,21 @@ pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<
         first = first.min(annotation.span.start());
         last = last.max(annotation.span.end());
     }
+    let mut empty = 0;
     let tiers = transcript
         .tiers
         .iter()
-        .map(|tier| grid_tier(tier, (first, last), &mut findings))
+        .map(|tier| grid_tier(tier, (first, last), &mut empty, &mut findings))
         .collect();
+    if empty > 0 {
+        findings.push(Finding::warning(
+            None,
+            format!(
+                "{empty} annotations without text are not in the TextGrid, where an empty interval is a gap; \
+                 an .eaf keeps them"
+            ),
+        ));
+    }
     if transcript.tiers.iter().any(|tier| tier.parent.is_some()) {
         findings.push(Finding::note(
             None,
@@ -191,7 +201,13 @@ pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<
     (text(&grid, form), findings.finish())
 }
 
-fn grid_tier(tier: &Tier, (first, last): (Instant, Instant), findings: &mut Findings) -> GridTier {
+/// Returns a tier of intervals without gaps and overlaps, or one of points; counts annotations that become gaps.
+fn grid_tier(
+    tier: &Tier,
+    (first, last): (Instant, Instant),
+    empty: &mut u64,
+    findings: &mut Findings,
+) -> GridTier {
     let is_points = tier.kind == POINTS;
     let mut annotations: Vec<&Annotation> = tier.annotations.iter().collect();
     annotations.sort_by_key(|annotation| annotation.span.start());
@@ -202,6 +218,10 @@ fn grid_tier(tier: &Tier, (first, last): (Instant, Instant), findings: &mut Find
         if is_points {
             let start = annotation.span.start().seconds();
             items.push(Item::new(start, start, &annotation.value));
+            continue;
+        }
+        if annotation.value.is_empty() {
+            *empty += 1;
             continue;
         }
         if end <= start {
@@ -217,6 +237,19 @@ fn grid_tier(tier: &Tier, (first, last): (Instant, Instant), findings: &mut Find
                 )
             });
             continue;
+        }
+        if start > annotation.span.start() {
+            findings.add("annotations that overlap others and start later", || {
+                Finding::warning(
+                    None,
+                    format!(
+                        "{:?} at {} on {:?} overlaps others; in the TextGrid it starts at {start}",
+                        annotation.value,
+                        annotation.span.start(),
+                        tier.name
+                    ),
+                )
+            });
         }
         if start > at {
             items.push(Item::new(at.seconds(), start.seconds(), ""));

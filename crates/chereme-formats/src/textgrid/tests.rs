@@ -156,6 +156,72 @@ fn intervals_that_overlap_or_have_no_time_are_reported() {
 }
 
 #[test]
+fn annotations_that_a_text_grid_cuts_or_leaves_out_are_reported() {
+    let tier = |annotations: &[(i64, i64, &str)]| {
+        let annotation = |&(start, end, value): &(i64, i64, &str)| Annotation {
+            id: format!("a{start}"),
+            span: Span::between(
+                Instant::from_millis(start * 1000),
+                Instant::from_millis(end * 1000),
+            ),
+            timing: Timing::Own,
+            parent: None,
+            order: 0,
+            value: value.to_owned(),
+            entry: None,
+            language: None,
+            external_ref: None,
+            millis: None,
+        };
+        Tier {
+            name: "T".to_owned(),
+            annotations: annotations.iter().map(annotation).collect(),
+            ..Tier::default()
+        }
+    };
+    let empty = "annotations without text are not in the TextGrid, where an empty interval is a gap; an .eaf keeps them";
+    let cut = "\"B\" at 1.000s on \"T\" overlaps others; in the TextGrid it starts at 2.000s";
+    let gone = "\"C\" at 1.000s on \"T\" overlaps others; a TextGrid has no room for it";
+    for (annotations, written, said) in [
+        (
+            &[(0, 2, "A"), (2, 3, "B")][..],
+            &["0-2 A", "2-3 B"][..],
+            vec![],
+        ),
+        (
+            &[(0, 2, "A"), (1, 3, "B"), (1, 2, "C")],
+            &["0-2 A", "2-3 B"],
+            vec![cut.to_owned(), gone.to_owned()],
+        ),
+        (
+            &[(0, 1, ""), (1, 2, "A"), (2, 3, "")],
+            &["1-2 A"],
+            vec![format!("2 {empty}")],
+        ),
+        // An empty annotation takes no room from others.
+        (
+            &[(0, 2, ""), (1, 3, "B")],
+            &["1-3 B"],
+            vec![format!("1 {empty}")],
+        ),
+    ] {
+        let transcript = Transcript {
+            tiers: vec![tier(annotations)],
+            ..Transcript::default()
+        };
+        let (text, findings) = write(&transcript, Form::Long, Instant::from_millis(3000));
+        let (again, _) = read(text.as_bytes()).expect("a TextGrid");
+        let spans = again.tiers[0].annotations.iter().map(|it| {
+            let [start, end] = [it.span.start(), it.span.end()].map(|at| at.millis() / 1000);
+            format!("{start}-{end} {}", it.value)
+        });
+        assert_eq!(spans.collect::<Vec<_>>(), written);
+        let messages: Vec<String> = findings.into_iter().map(|it| it.message).collect();
+        assert_eq!(messages, said);
+    }
+}
+
+#[test]
 fn damaged_files_are_refused_with_the_place() {
     let cases: [(&[u8], &str); 8] = [
         (b"", "does not begin"),
