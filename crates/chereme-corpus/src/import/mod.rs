@@ -592,7 +592,10 @@ fn walk(folder: &Path, depth: usize, files: &mut Vec<Candidate>) {
                 walk(&path, depth + 1, files);
             }
         } else if !hidden {
-            let reader = readers::reader(&path).ok_or_else(|| readers::unread(&path));
+            let reader = match readers::copied(&path) {
+                Some(why) => Err(why),
+                None => readers::reader(&path).ok_or_else(|| readers::unread(&path)),
+            };
             files.push(Candidate {
                 path,
                 reader,

@@ -341,6 +341,29 @@ pub(super) fn unread(path: &Path) -> Error {
         .advise(remedy)
 }
 
+/// Returns the reason to leave out a file of a folder that `chereme export all` wrote, if the database in that folder
+/// holds the same as the file: its tables, and the list of sources.
+pub(super) fn copied(path: &Path) -> Option<Error> {
+    let folder = path.parent()?;
+    let exported = match folder.file_name() {
+        Some(name) if name == "tables" => folder.parent()?,
+        _ if path.file_name()? == "provenance.json" => folder,
+        _ => return None,
+    };
+    let marks = ["corpus.chereme", "provenance.json", "SHA256SUMS"];
+    if !marks.iter().all(|mark| exported.join(mark).is_file()) {
+        return None;
+    }
+    let why = "it is a copy of a part of corpus.chereme, in a folder that `chereme export` wrote";
+    Some(
+        Error::wrong(why)
+            .at(path.display().to_string())
+            .advise(Remedy::command(
+                "open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`",
+            )),
+    )
+}
+
 /// Returns the function that reads annotations from files of this name, if its ending is that of annotation files.
 pub(crate) fn transcript(path: &Path) -> Option<Parse<Transcript>> {
     READERS[reader(path)?].transcript()

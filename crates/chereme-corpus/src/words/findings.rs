@@ -280,4 +280,12 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "{text} at {time} on {name} overlaps others; in the TextGrid it starts at {start}",
         "{text} à {time} sur {name} en chevauche d’autres ; dans le TextGrid elle commence à {start}",
     ),
+    (
+        "it is a copy of a part of corpus.chereme, in a folder that `chereme export` wrote",
+        "c’est la copie d’une partie de corpus.chereme, dans un dossier que `chereme export` a écrit",
+    ),
+    (
+        "open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`",
+        "ouvrez le corpus.chereme de ce dossier, ou réunissez-le avec le vôtre : `chereme merge CORPUS AUTRE`",
+    ),
 ];

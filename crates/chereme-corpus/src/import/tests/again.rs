@@ -571,3 +571,52 @@ fn stopping_an_import_of_any_kind_leaves_the_corpus_as_it_was() {
         assert_whole(&mut corpus);
     }
 }
+
+#[test]
+fn an_exported_folder_is_imported_without_the_copies_of_its_tables() {
+    let desk = Desk::new();
+    let lexicon = desk.file("lexicon.csv", "gloss,handshape\nBOL,U\nCHAT,V\n");
+    let movement = desk.file("take.bvh", MOVEMENT);
+    let tiers = desk.file("take.eaf", &eaf(&[("Gloss", 0, 200, "BOL")]));
+    let mut corpus = desk.corpus("c.chereme");
+    take(
+        &mut corpus,
+        &[lexicon, movement, tiers],
+        &ImportOptions::default(),
+    );
+    let all = desk.folder.path().join("all");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    let exported = corpus.export(
+        &ExportWhat::All,
+        &all,
+        &ExportOptions::default(),
+        &mut progress,
+    );
+    exported.expect("exported");
+    let mut number = 0;
+    let mut imported = |folder: PathBuf| {
+        number += 1;
+        let mut corpus = desk.corpus(&format!("{number}.chereme"));
+        let report = take(&mut corpus, &[folder], &ImportOptions::default());
+        let counts = [ListKind::Signs, ListKind::Tokens, ListKind::Recordings].map(|kind| {
+            let list = corpus.list(kind, &ListFilter::default());
+            list.expect("listed").total
+        });
+        (counts, report)
+    };
+    let (alone, _) = imported(all.join("recordings"));
+    let (whole, report) = imported(all.clone());
+    assert_eq!(whole, alone, "{report:?}");
+    assert!(!report.has_refusals(), "{report:?}");
+    let unread = report.unread();
+    let copies = unread.iter().find(|it| it.ending.as_deref() == Some("csv"));
+    let copies = copies.expect("the tables");
+    assert!(copies.files.len() > 10 && copies.why.contains("corpus.chereme"));
+    let remedy = copies.remedy.as_ref().map(|it| it.text().to_owned());
+    assert!(remedy.is_some_and(|it| it.contains("chereme merge")));
+    // The same tables elsewhere are tables like others.
+    fs::remove_file(all.join("SHA256SUMS")).expect("removed");
+    let (whole, _) = imported(all);
+    assert!(whole[0] > alone[0], "{whole:?}");
+}
