@@ -10,6 +10,7 @@ use crate::Corpus;
 use crate::address::{self, Name};
 use crate::db::recordings::{self, MediaTrackRow};
 use crate::error::{Error, Result};
+use crate::paths::legible;
 
 /// A change of a recording's media.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -129,7 +130,7 @@ pub fn find_media(track: MediaTrackRow, corpus: &Path) -> MediaPlace {
             .file_name()?
             .to_string_lossy()
             .into_owned();
-        let own = |entry: &Path| entry.file_name().is_some_and(|it| *it == *name);
+        let own = |entry: &Path| entry.file_name().is_some_and(|it| legible(it) == name);
         let stem = Path::new(&name).file_stem()?.to_owned();
         let converted = |entry: &Path| {
             let kind = entry.extension().unwrap_or_default().to_string_lossy();

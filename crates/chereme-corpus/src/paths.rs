@@ -1,5 +1,7 @@
-//! Completion of typed paths.
+//! Completion of typed paths, and names of files as text.
 
+use std::ffi::OsStr;
+use std::fmt::Write as _;
 use std::fs;
 use std::path::{MAIN_SEPARATOR, Path};
 
@@ -37,9 +39,38 @@ pub fn paths_like(typed: &str) -> Vec<String> {
     folders
 }
 
+/// Returns a path or a name of a file as text, for storage and reports.
+///
+/// Bytes that are not UTF-8 become `%FF`, so that the texts of two such names differ too.
+pub(crate) fn legible(name: impl AsRef<OsStr>) -> String {
+    let mut text = String::new();
+    for chunk in name.as_ref().as_encoded_bytes().utf8_chunks() {
+        text.push_str(chunk.valid());
+        for byte in chunk.invalid() {
+            // Writing to a text never fails.
+            let _ = write!(text, "%{byte:02X}");
+        }
+    }
+    text
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn names_that_are_not_utf8_stay_apart_as_text() {
+        use std::os::unix::ffi::OsStrExt as _;
+        for (name, text) in [
+            (&b"take\xff.eaf"[..], "take%FF.eaf"),
+            (b"take\xfe.eaf", "take%FE.eaf"),
+            (b"a\xc3/b\xe9\xe8", "a%C3/b%E9%E8"),
+            ("caf\u{e9} 100%20.eaf".as_bytes(), "caf\u{e9} 100%20.eaf"),
+        ] {
+            assert_eq!(legible(OsStr::from_bytes(name)), text);
+        }
+    }
 
     #[test]
     fn a_path_is_completed_from_existing_names_folders_first() {

@@ -41,6 +41,7 @@ use crate::db::motion::hex;
 use crate::db::recordings::{self, SourceFileRow};
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
+use crate::paths::legible;
 use crate::progress::{Progress, Step, Unit};
 
 use places::Places;
@@ -306,12 +307,7 @@ fn one_take(files: &[Candidate]) -> BTreeSet<PathBuf> {
     };
     let folder = |it: &'_ Candidate| it.path.parent().map(Path::to_owned).unwrap_or_default();
     let folders: Vec<PathBuf> = files.iter().map(folder).collect();
-    let stem = |path: &Path| {
-        path.file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .to_lowercase()
-    };
+    let stem = |path: &Path| legible(path.file_stem().unwrap_or_default()).to_lowercase();
     for (it, folder) in files.iter().zip(&folders).filter(|it| readable(&it.0)) {
         *kinds.entry((folder, kind(it))).or_default() += 1;
         *stems.entry((folder, stem(&it.path))).or_default() += 1;
@@ -398,7 +394,7 @@ impl Import<'_> {
             report.files.push(file);
         }
         if let Some(path) = &self.options.standard_input {
-            let stands = path.display().to_string();
+            let stands = legible(path);
             let shown = report.files.iter_mut().filter(|it| it.path == stands);
             shown.for_each(|it| "-".clone_into(&mut it.path));
         }
@@ -413,10 +409,8 @@ impl Import<'_> {
         counts: Counts,
         progress: &mut Progress<'_>,
     ) -> Result<(FileReport, Counts)> {
-        let text = |part: Option<&std::ffi::OsStr>| {
-            part.map(|part| part.to_string_lossy().into_owned())
-                .unwrap_or_default()
-        };
+        let text = |part: Option<&std::ffi::OsStr>| part.map(legible).unwrap_or_default();
+        check_name(path)?;
         let inventories = match &self.inventories {
             Some(loaded) => loaded.clone(),
             None => inventories::load(self.connection)?.into(),
@@ -493,11 +487,22 @@ fn place(path: &Path, folder: &Path) -> String {
         (path.components().collect(), folder.components().collect());
     let shared = own.iter().zip(&base).take_while(|(a, b)| a == b).count();
     let up = if shared == 0 { 0 } else { base.len() - shared };
-    let names = own[shared..]
-        .iter()
-        .map(|it| it.as_os_str().to_string_lossy());
+    let names = own[shared..].iter().map(legible);
     let parts: Vec<_> = std::iter::repeat_n("..".into(), up).chain(names).collect();
     parts.join("/")
+}
+
+/// Refuses a path that is not UTF-8 if its text is the path of another file, so that the two are not taken for one.
+fn check_name(path: &Path) -> Result<()> {
+    let text = legible(path);
+    match path.to_str().is_none() && Path::new(&text).exists() {
+        true => Err(Error::wrong(format!(
+            "the path is not UTF-8, and as text it is that of another file: {text}"
+        ))
+        .at(text)
+        .advise("rename one of the two files")),
+        false => Ok(()),
+    }
 }
 
 fn hash_file(path: &Path, progress: &mut Progress<'_>) -> Result<String> {

@@ -11,6 +11,7 @@ use serde::Serialize;
 
 use super::understood::Understood;
 use crate::error::Error;
+use crate::paths::legible;
 
 /// The report of an import.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -266,7 +267,7 @@ impl ReportFinding {
 impl FileReport {
     pub(super) fn new(path: &Path, status: FileStatus) -> Self {
         Self {
-            path: path.display().to_string(),
+            path: legible(path),
             status,
             recording: None,
             understood: Box::default(),

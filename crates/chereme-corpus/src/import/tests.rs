@@ -5,6 +5,8 @@ mod captured;
 mod film;
 mod lexicon;
 mod reading;
+#[cfg(target_os = "linux")]
+mod unusual;
 
 use std::path::{Path, PathBuf};
 

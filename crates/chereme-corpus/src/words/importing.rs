@@ -4,6 +4,14 @@
 pub(super) const IMPORTING: &[(&str, &str)] = &[
     ("the file has {n} bytes", "le fichier a {n} octets"),
     (
+        "the path is not UTF-8, and as text it is that of another file: {path}",
+        "le chemin n’est pas en UTF-8, et en texte c’est celui d’un autre fichier : {path}",
+    ),
+    (
+        "rename one of the two files",
+        "renommez l’un des deux fichiers",
+    ),
+    (
         "the file cannot be written: {why}",
         "le fichier ne s’écrit pas : {why}",
     ),

@@ -1,0 +1,79 @@
+//! Tests of files that are unusual as files: names that are not UTF-8.
+
+use std::ffi::OsStr;
+use std::os::unix::ffi::OsStrExt as _;
+
+use super::*;
+
+/// Imports paths and returns the complete report.
+fn take(corpus: &mut Corpus, paths: &[PathBuf]) -> ImportReport {
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    let report = corpus.import(paths, &options, &mut Progress::new(&mut hear));
+    report.expect("imported")
+}
+
+/// Creates a folder on the desk with files of these names.
+fn folder(desk: &Desk, name: &[u8], files: &[(&[u8], String)]) -> PathBuf {
+    let folder = desk.folder.path().join(OsStr::from_bytes(name));
+    fs::create_dir(&folder).expect("made");
+    for (name, text) in files {
+        fs::write(folder.join(OsStr::from_bytes(name)), text).expect("written");
+    }
+    folder
+}
+
+fn names(corpus: &Corpus) -> Vec<String> {
+    let all = crate::db::recordings::recordings(corpus.store.read()).expect("recordings");
+    all.into_iter().map(|row| row.name).collect()
+}
+
+#[test]
+fn files_whose_names_are_not_utf8_stay_recordings_of_their_own() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let first = eaf(&[("Gloss", 0, 500, "FIRST")]);
+    let second = eaf(&[("Gloss", 0, 500, "SECOND")]);
+    let files: [(&[u8], _); 2] = [(b"take\xff.eaf", first.clone()), (b"take\xfe.eaf", second)];
+    let report = take(&mut corpus, &[folder(&desk, b"in", &files)]);
+    let shown = |it: &FileReport| it.path.rsplit('/').next().unwrap_or_default().to_owned();
+    let paths: Vec<String> = report.files.iter().map(shown).collect();
+    assert_eq!(paths, ["take%FE.eaf", "take%FF.eaf"]);
+    assert_eq!(names(&corpus), ["take%FE", "take%FF"]);
+    assert_whole(&mut corpus);
+
+    // A folder's name distinguishes files as well, and a file is found again.
+    let other: [(&[u8], _); 1] = [(b"take.eaf", first)];
+    let folders = [b"in\xff", b"in\xfe"].map(|name| folder(&desk, name, &other));
+    fs::write(
+        folders[1].join("take.eaf"),
+        eaf(&[("Gloss", 0, 400, "THIRD")]),
+    )
+    .expect("written");
+    take(&mut corpus, &folders);
+    assert_eq!(names(&corpus).len(), 4, "{:?}", names(&corpus));
+    let again = take(&mut corpus, &folders);
+    let unchanged = |it: &FileReport| it.status == FileStatus::Unchanged;
+    assert!(again.files.iter().all(unchanged), "{:?}", again.files);
+}
+
+#[test]
+fn a_name_that_is_as_text_that_of_another_file_is_refused() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let files: [(&[u8], _); 2] = [
+        (b"take\xff.eaf", eaf(&[("Gloss", 0, 500, "FIRST")])),
+        (b"take%FF.eaf", eaf(&[("Gloss", 0, 500, "SECOND")])),
+    ];
+    let report = take(&mut corpus, &[folder(&desk, b"in", &files)]);
+    let count = |status| report.files.iter().filter(|it| it.status == status).count();
+    assert_eq!(count(FileStatus::Imported), 1);
+    let refused = report
+        .files
+        .iter()
+        .find(|it| it.status == FileStatus::Refused);
+    let finding = &refused.expect("refused").findings[0];
+    assert!(finding.message.contains("not UTF-8"), "{}", finding.message);
+    assert!(finding.remedy.is_some());
+    assert_eq!(names(&corpus), ["take%FF"]);
+}
