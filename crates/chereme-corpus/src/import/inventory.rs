@@ -1,5 +1,6 @@
 //! Imports inventories from JSON; JSON that holds signs is imported as a lexicon.
 
+use chereme_formats::table::TableError;
 use chereme_formats::{hns, lexicon};
 use chereme_sign::Inventory;
 use serde_json::Value;
@@ -23,12 +24,19 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let text = std::str::from_utf8(&bytes).map_err(|_| wrong("the file is not UTF-8".into()))?;
     let all = match Inventory::all_from_json(text) {
         Ok(all) => all,
-        Err(_) if holds_signs(job, &bytes) => {
-            job.kind = "lexicon";
-            return super::lexicon::import(job, progress);
-        }
         Err(error) => {
-            let wrong = wrong(error.to_string());
+            let signs = holds_signs(job, text);
+            if let Ok(true) = signs {
+                job.kind = "lexicon";
+                return super::lexicon::import(job, progress);
+            }
+            let wrong = match signs {
+                Err(lines @ TableError::JsonLines { .. }) => Error::wrong(lines.to_string())
+                    .advise(
+                        "write an object with a gloss on each line, or one array of such objects",
+                    ),
+                _ => wrong(error.to_string()),
+            };
             return if !job.named && is_other(text) {
                 let other = Error::wrong("it holds no inventory and no signs")
                     .advise(wrong.remedy().unwrap_or_default());
@@ -65,23 +73,29 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     Ok(report)
 }
 
-/// Reports whether JSON holds signs with notation or codings.
-fn holds_signs(job: &Job<'_>, bytes: &[u8]) -> bool {
+/// Reports whether a text holds signs with notation or codings; one that begins as JSON is never read as a table.
+fn holds_signs(job: &Job<'_>, text: &str) -> std::result::Result<bool, TableError> {
     let notated = |text: &String| hns::holds_some(text.as_bytes());
-    let read = lexicon::read(bytes, &job.options.mapping);
-    read.is_ok_and(|(lexicon, _)| {
+    let (bytes, mapping) = (text.as_bytes(), &job.options.mapping);
+    let plain = text.trim_start_matches('\u{feff}').trim_start();
+    let read = match plain.starts_with(['{', '[']) {
+        true => lexicon::read_json(bytes, mapping)?,
+        false => Some(lexicon::read(bytes, mapping)?),
+    };
+    Ok(read.is_some_and(|(lexicon, _)| {
         let mut signs = lexicon.entries.iter();
         signs.any(|sign| sign.notation.as_ref().is_some_and(notated) || !sign.codings.is_empty())
-    })
+    }))
 }
 
-/// Reports whether a text is valid JSON without signs of being meant as an inventory.
+/// Reports whether a text is valid JSON, or JSON Lines, without signs of being meant as an inventory.
 fn is_other(text: &str) -> bool {
     let inventory =
         |value: &Value| value.get("values").is_some() || value.get("component").is_some();
-    match serde_json::from_str::<Value>(text) {
+    let mut values = serde_json::Deserializer::from_str(text).into_iter::<Value>();
+    values.all(|value| match value {
         Ok(Value::Array(all)) => !all.iter().any(inventory),
         Ok(other) => !inventory(&other),
         Err(_) => false,
-    }
+    })
 }

@@ -355,6 +355,11 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "this is not a table of text; save it as CSV or TSV in UTF-8",
         "ce n’est pas une table de texte ; enregistrez-la en CSV ou TSV, en UTF-8",
     ),
+    ("no object begins here", "ici ne commence aucun objet"),
+    (
+        "write an object with a gloss on each line, or one array of such objects",
+        "écrivez un objet avec une glose par ligne, ou un seul tableau de tels objets",
+    ),
     (
         "the first row has {n} columns, more than {most}",
         "la première ligne a {n} colonnes, plus de {most}",

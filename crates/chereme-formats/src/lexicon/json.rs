@@ -1,6 +1,7 @@
 //! Lexicons as JSON: the same rows and columns in another format.
 
-use crate::table::{COLUMNS, Cells, PADDED, Row};
+use crate::hns::holds_symbols;
+use crate::table::{COLUMNS, Cells, PADDED, Row, TableError};
 use serde_json::{Map, Value};
 use std::borrow::Cow;
 
@@ -11,32 +12,98 @@ const KEY: &str = "gloss";
 /// The title of the column for a text that is a whole sign.
 const TEXT: &str = "hamnosys";
 
-/// Returns the table that JSON holds: an array of objects, or an object of texts or objects by gloss.
+/// An object of a lexicon, which is a row of its table.
+#[derive(Default)]
+struct Entry {
+    /// The gloss, if it is the key of the object.
+    key: Option<String>,
+    /// The line on which the object begins, if it is known.
+    line: Option<u64>,
+    object: Map<String, Value>,
+}
+
+/// Returns the table that JSON holds: an array of objects, an object of texts or objects by gloss, or JSON Lines of
+/// objects.
 ///
 /// Rows are objects and columns their keys, in order of appearance; values other than text are kept as
 /// JSON. `None` for bytes that are not JSON, JSON of another shape, or more columns than any table needs.
-pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
-    let text = str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)).ok()?;
+///
+/// # Errors
+/// [`TableError::JsonLines`] if a complete JSON value is followed by something that belongs in no JSON Lines.
+pub(super) fn read(bytes: &[u8]) -> Result<Option<Cells>, TableError> {
+    let Ok(text) = str::from_utf8(bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)) else {
+        return Ok(None);
+    };
     if bytes.len() > BYTES || !text.trim_start().starts_with(['{', '[']) {
-        return None;
+        return Ok(None);
     }
-    let rows: Vec<(Option<String>, Map<String, Value>)> = match serde_json::from_str(text).ok()? {
-        Value::Array(all) => all
+    let rows: Option<Vec<Entry>> = match serde_json::from_str(text) {
+        Ok(Value::Array(all)) => all.into_iter().map(|row| entry(None, row)).collect(),
+        Ok(Value::Object(object)) if is_entry(&object) => Some(vec![Entry {
+            object,
+            ..Entry::default()
+        }]),
+        Ok(Value::Object(all)) => all
             .into_iter()
-            .map(|row| Some((None, object(row)?)))
+            .map(|(key, row)| entry(Some(key), row))
             .collect(),
-        Value::Object(all) => all
-            .into_iter()
-            .map(|(key, row)| Some((Some(key), object(row)?)))
-            .collect(),
-        _ => None,
-    }?;
+        Ok(_) => None,
+        Err(_) => json_lines(text)?,
+    };
+    Ok(rows.and_then(|rows| table(text, rows)))
+}
+
+/// Reads JSON Lines: objects after one another. `None` if not even the first value is complete.
+fn json_lines(text: &str) -> Result<Option<Vec<Entry>>, TableError> {
+    let mut values = serde_json::Deserializer::from_str(text).into_iter::<Value>();
+    let mut rows = Vec::new();
+    let (mut counted, mut line) = (0, 1);
+    loop {
+        let rest = &text[values.byte_offset()..];
+        let start = text.len() - rest.trim_start().len();
+        line += memchr::memchr_iter(b'\n', &text.as_bytes()[counted..start]).count() as u64;
+        counted = start;
+        match values.next() {
+            None => return Ok(Some(rows)),
+            Some(Ok(Value::Object(object))) => rows.push(Entry {
+                key: None,
+                line: Some(line),
+                object,
+            }),
+            Some(Ok(_)) => {
+                let before = text[..start].rsplit('\n').next().unwrap_or_default();
+                return Err(TableError::JsonLines {
+                    line,
+                    column: before.chars().count() as u64 + 1,
+                    what: "no object begins here".to_owned(),
+                });
+            }
+            Some(Err(_)) if rows.is_empty() => return Ok(None),
+            Some(Err(error)) => {
+                return Err(TableError::JsonLines {
+                    line: error.line() as u64,
+                    column: error.column() as u64,
+                    what: error.to_string(),
+                });
+            }
+        }
+    }
+}
+
+/// Returns whether an object is one entry, as in JSON Lines of one line, rather than entries by gloss.
+fn is_entry(object: &Map<String, Value>) -> bool {
+    let gloss = object.get(KEY).and_then(Value::as_str);
+    gloss.is_some_and(|gloss| !holds_symbols(gloss))
+}
+
+/// Returns rows as a table.
+fn table(text: &str, rows: Vec<Entry>) -> Option<Cells> {
     let mut header: Vec<String> = Vec::new();
-    let keyed = rows.iter().any(|(key, _)| key.is_some());
-    if keyed && !rows.iter().any(|(_, row)| row.contains_key(KEY)) {
+    let keyed = rows.iter().any(|row| row.key.is_some());
+    if keyed && !rows.iter().any(|row| row.object.contains_key(KEY)) {
         header.push(KEY.to_owned());
     }
-    for title in rows.iter().flat_map(|(_, row)| row.keys()) {
+    for title in rows.iter().flat_map(|row| row.object.keys()) {
         if !header.contains(title) {
             header.push(title.clone());
         }
@@ -44,7 +111,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
             return None;
         }
     }
-    let held: usize = rows.iter().map(|(_, row)| row.len()).sum();
+    let held: usize = rows.iter().map(|row| row.object.len()).sum();
     if rows.len().saturating_mul(header.len()) > held.saturating_add(PADDED) {
         return None;
     }
@@ -53,15 +120,20 @@ pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
         at: 0,
         line: 1,
     };
-    let rows = rows.into_iter().map(|(key, mut row)| {
+    let rows = rows.into_iter().map(|entry| {
+        let Entry {
+            key,
+            line,
+            mut object,
+        } = entry;
         if let Some(key) = &key {
-            row.entry(KEY).or_insert_with(|| key.as_str().into());
+            object.entry(KEY).or_insert_with(|| key.as_str().into());
         }
-        let cells: Vec<String> = header.iter().map(|title| cell(row.get(title))).collect();
+        let cells: Vec<String> = (header.iter().map(|title| cell(object.get(title)))).collect();
         let known = key
             .as_ref()
             .or_else(|| cells.iter().find(|cell| !cell.is_empty()));
-        let line = lines.of(known.map_or("", String::as_str));
+        let line = line.unwrap_or_else(|| lines.of(known.map_or("", String::as_str)));
         Row { line, cells }
     });
     Some(Cells {
@@ -71,12 +143,18 @@ pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
     })
 }
 
-fn object(value: Value) -> Option<Map<String, Value>> {
-    match value {
-        Value::Object(object) => Some(object),
-        Value::String(text) => Some(Map::from_iter([(TEXT.to_owned(), text.into())])),
-        _ => None,
-    }
+/// Returns the row for a value; `None` unless it is an object or a text.
+fn entry(key: Option<String>, value: Value) -> Option<Entry> {
+    let object = match value {
+        Value::Object(object) => object,
+        Value::String(text) => Map::from_iter([(TEXT.to_owned(), text.into())]),
+        _ => return None,
+    };
+    Some(Entry {
+        key,
+        line: None,
+        object,
+    })
 }
 
 pub(super) fn cell(value: Option<&Value>) -> String {
@@ -104,5 +182,59 @@ impl Lines<'_> {
             self.at += found + quoted.len();
         }
         self.line
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::lexicon;
+    use crate::roles::Mapping;
+    use crate::table::TableError;
+
+    #[test]
+    fn json_lines_are_entries_or_refused_with_their_place() {
+        let good = [
+            "{\"gloss\": \"A\", \"Handshape\": \"U\"}\n{\"gloss\": \"B\", \"Handshape\": \"U\"}\n",
+            "\u{feff}{\"gloss\": \"A\"}\r\n{\"n\": 1, \"gloss\": \"B\"}",
+            "[{\"gloss\": \"A\"},\n{\"gloss\": \"B\"}]",
+        ];
+        for text in good {
+            let read = lexicon::read_json(text.as_bytes(), &Mapping::default());
+            let (lexicon, _) = read.expect(text).expect("JSON");
+            let entries: Vec<(&str, u64)> = (lexicon.entries.iter())
+                .map(|it| (it.gloss.as_str(), it.line))
+                .collect();
+            assert_eq!(entries, [("A", 1), ("B", 2)], "{text}");
+        }
+        let one = lexicon::read_json(
+            b"{\"gloss\": \"A\", \"Handshape\": \"U\"}",
+            &Mapping::default(),
+        );
+        let (one, _) = one.expect("read").expect("JSON");
+        assert_eq!((one.entries.len(), one.entries[0].codings.len()), (1, 1));
+        for (text, place) in [
+            ("[\"A\", \"U\"]\n[\"B\", \"S\"]\n", (1, 1)),
+            ("{\"gloss\": \"A\"}\n\n  [\"B\"]\n", (3, 3)),
+            ("{\"gloss\": \"A\"}\n{\"gloss\": \"B\",}\n", (2, 15)),
+            ("{\"gloss\": \"A\"}\n{\"gloss\": \"B\"", (2, 13)),
+            ("{\"gloss\": \"A\"}\nB\n", (2, 1)),
+        ] {
+            match lexicon::read_json(text.as_bytes(), &Mapping::default()) {
+                Err(TableError::JsonLines { line, column, .. }) => {
+                    assert_eq!((line, column), place, "{text}");
+                }
+                other => panic!("{text}: {other:?}"),
+            }
+        }
+        for text in [
+            "{\"gloss\": ",
+            "gloss,Handshape\nA,U\n",
+            "[1, 2]",
+            "",
+            "[gloss],x\nA,B\n",
+        ] {
+            let read = lexicon::read_json(text.as_bytes(), &Mapping::default());
+            assert_eq!(read, Ok(None), "{text}");
+        }
     }
 }

@@ -3,8 +3,8 @@
 //! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`]. Compound
 //! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone; `-`
 //! and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
-//! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, or an
-//! export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`] reproduces the
+//! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, JSON
+//! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`] reproduces the
 //! table.
 //!
 //! ```
@@ -130,10 +130,38 @@ pub struct Inventory {
 /// [`TableError`] if the bytes are not a table or no column is a gloss.
 pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), TableError> {
     let mut findings = Findings::default();
-    let mut table = match slpaa::read(bytes).or_else(|| json::read(bytes)) {
+    // Text that only begins as JSON Lines do may be a table.
+    let found = slpaa::read(bytes).or_else(|| json::read(bytes).ok().flatten());
+    let table = match found {
         Some(table) => table,
         None => Cells::read(bytes, &mut findings)?,
     };
+    interpret(table, mapping, findings)
+}
+
+/// Reads a lexicon from JSON as [`read`] does; `None` for anything else than JSON of such a form.
+///
+/// # Errors
+/// [`TableError`] if no key is a gloss, or JSON Lines hold anything but an object.
+pub fn read_json(
+    bytes: &[u8],
+    mapping: &Mapping,
+) -> Result<Option<(Lexicon, Vec<Finding>)>, TableError> {
+    let found = match slpaa::read(bytes) {
+        Some(table) => Some(table),
+        None => json::read(bytes)?,
+    };
+    found
+        .map(|table| interpret(table, mapping, Findings::default()))
+        .transpose()
+}
+
+/// Returns the lexicon that a table holds.
+fn interpret(
+    mut table: Cells,
+    mapping: &Mapping,
+    mut findings: Findings,
+) -> Result<(Lexicon, Vec<Finding>), TableError> {
     without_titles(&mut table, &mut findings);
     let columns = columns::meanings(&table.header, &table.rows, mapping, &mut findings);
     let gloss = columns

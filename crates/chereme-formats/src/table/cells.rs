@@ -57,6 +57,16 @@ pub enum TableError {
         /// The end as it is written.
         end: String,
     },
+    /// JSON Lines hold something else than an object.
+    #[error("line {line}, column {column}: {what}")]
+    JsonLines {
+        /// The line, counted from 1.
+        line: u64,
+        /// The column, counted from 1.
+        column: u64,
+        /// The fault.
+        what: String,
+    },
     /// A required column is missing.
     #[error("no column of the first row ({found}) is {needed}; {remedy}")]
     Missing {

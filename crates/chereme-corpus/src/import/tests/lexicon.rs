@@ -290,3 +290,37 @@ fn participants_of_a_file_are_signers_of_their_own_tokens() {
     assert_eq!(row.participant, None);
     assert_whole(&mut corpus);
 }
+
+#[test]
+fn json_lines_are_read_entry_by_entry_or_refused() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let lines =
+        "{\"gloss\": \"A\", \"Handshape\": \"U\"}\n{\"gloss\": \"B\", \"Handshape\": \"S\"}\n";
+    let report = import(&mut corpus, &desk.file("lines.json", lines), "{}");
+    assert_eq!(report.status, FileStatus::Imported, "{:?}", report.findings);
+    for query in ["gloss=A configuration=U", "gloss=B configuration=S"] {
+        assert_eq!(total(&mut corpus, query), 1, "{query}");
+    }
+    assert_eq!(total(&mut corpus, ""), 2);
+    for (name, text, place) in [
+        (
+            "arrays.json",
+            "[\"gloss\", \"Handshape\"]\n[\"C\", \"U\"]\n",
+            "line 1, column 1",
+        ),
+        (
+            "cut.json",
+            "{\"gloss\": \"C\", \"Handshape\": \"U\"}\n{\"gloss\": \"D\"\n",
+            "line 3, column 0",
+        ),
+    ] {
+        let report = import(&mut corpus, &desk.file(name, text), "{}");
+        assert_eq!(report.status, FileStatus::Refused, "{name}");
+        let finding = &report.findings[0];
+        assert!(finding.message.contains(place), "{}", finding.message);
+        let remedy = finding.remedy.as_ref().map(ToString::to_string);
+        assert!(remedy.is_some_and(|it| it.contains("on each line")));
+    }
+    assert_eq!(total(&mut corpus, ""), 2, "nothing of them was stored");
+}
