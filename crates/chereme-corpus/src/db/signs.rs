@@ -410,6 +410,13 @@ pub(crate) fn tokens_of_sign(connection: &Connection, sign: i64) -> Result<Vec<T
     Ok(rows)
 }
 
+/// Returns whether a sign has a citation form.
+pub(crate) fn has_citation(connection: &Connection, sign: i64) -> Result<bool> {
+    Ok(connection
+        .prepare_cached("SELECT 1 FROM token WHERE sign_id = ?1 AND citation = 1")?
+        .exists([sign])?)
+}
+
 /// Returns whether a sign has a citation form that moves.
 pub(crate) fn is_cited(connection: &Connection, sign: i64) -> Result<bool> {
     Ok(connection

@@ -1,6 +1,8 @@
 //! Imports tables of lexicon codings: each row is a sign whose citation form is a token without movement.
 
+use std::cmp::Reverse;
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
 use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
 use chereme_formats::table::TableError;
@@ -61,9 +63,9 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
-    let mut earlier = Earlier::default();
+    let mut signs = Signs::default();
     for (done, entry) in table.entries.iter().enumerate() {
-        let token = import_entry(job, &table, entry, &inventories, &mut earlier)?;
+        let token = import_entry(job, &table, entry, &inventories, &mut signs)?;
         if let Some(text) = &entry.notation {
             let notation = Text {
                 token,
@@ -112,41 +114,69 @@ struct Known {
     values: BTreeMap<String, String>,
 }
 
-/// Entries from an earlier import of the file at the same path, by gloss, in reverse order.
+/// The signs of the table so far, by gloss; each is looked up once, however many rows share it.
 #[derive(Default)]
-struct Earlier(BTreeMap<String, Vec<i64>>);
+struct Signs(BTreeMap<String, KnownSign>);
 
-impl Earlier {
-    /// Returns the earlier entry that corresponds to the next row with this gloss; entries of other files do not count.
-    fn next(&mut self, job: &Job<'_>, gloss: &str, tokens: &[TokenRow]) -> Result<Option<i64>> {
-        if let Some(known) = self.0.get_mut(gloss) {
-            return Ok(known.pop());
+/// A sign of the corpus to which rows of the table add entries.
+struct KnownSign {
+    id: i64,
+    /// Whether one of its tokens is its citation form.
+    has_citation: bool,
+    /// Its entries from an earlier import of the file at the same path, in reverse order; each belongs to the next row
+    /// with the sign's gloss.
+    earlier: Vec<TokenRow>,
+}
+
+impl Signs {
+    /// Returns the sign with a gloss; inserts it if it is missing.
+    fn glossed(&mut self, job: &mut Job<'_>, gloss: &str) -> Result<&mut KnownSign> {
+        match self.0.entry(gloss.to_owned()) {
+            Entry::Occupied(known) => Ok(known.into_mut()),
+            Entry::Vacant(new) => Ok(new.insert(KnownSign::load(job, gloss)?)),
         }
-        let mut own = Vec::new();
-        for token in tokens
-            .iter()
-            .filter(|token| token.origin == Origin::Lexicon)
-        {
-            let source: Value = token
-                .source
-                .as_deref()
-                .and_then(|text| serde_json::from_str(text).ok())
-                .unwrap_or_default();
-            let same = match source["path"].as_str() {
-                Some(path) => path == job.place,
-                None => source["file"].as_str() == Some(&job.file_name),
-            };
-            // A sign from a SiGML file is a separate entry.
-            let notation = notations::of_token(job.connection, token.id)?;
-            if same && notation.is_none_or(|notation| notation.system == "hamnosys") {
-                own.push(token.id);
+    }
+}
+
+impl KnownSign {
+    fn load(job: &mut Job<'_>, gloss: &str) -> Result<Self> {
+        let is_new = signs::find_sign(job.connection, gloss)?.is_none();
+        job.count("signs", usize::from(is_new));
+        let id = signs::sign_glossed(job.connection, gloss)?;
+        let tokens = signs::tokens_of_sign(job.connection, id)?;
+        let has_citation = tokens.iter().any(|token| token.citation);
+        let mut earlier = Vec::new();
+        for token in tokens {
+            if is_earlier(job, &token)? {
+                earlier.push(token);
             }
         }
-        own.sort_unstable_by(|a, b| b.cmp(a));
-        let next = own.pop();
-        self.0.insert(gloss.to_owned(), own);
-        Ok(next)
+        earlier.sort_unstable_by_key(|token| Reverse(token.id));
+        Ok(Self {
+            id,
+            has_citation,
+            earlier,
+        })
     }
+}
+
+/// Reports whether a token is an entry from an earlier import of the file; entries of other files are not.
+fn is_earlier(job: &Job<'_>, token: &TokenRow) -> Result<bool> {
+    if token.origin != Origin::Lexicon {
+        return Ok(false);
+    }
+    let source: Value = token
+        .source
+        .as_deref()
+        .and_then(|text| serde_json::from_str(text).ok())
+        .unwrap_or_default();
+    let same = match source["path"].as_str() {
+        Some(path) => path == job.place,
+        None => source["file"].as_str() == Some(&job.file_name),
+    };
+    // A sign from a SiGML file is a separate entry.
+    let notation = notations::of_token(job.connection, token.id)?;
+    Ok(same && notation.is_none_or(|notation| notation.system == "hamnosys"))
 }
 
 /// Stores the values that the table uses, unless an inventory of the corpus already has them all.
@@ -213,37 +243,33 @@ fn import_entry(
     table: &Lexicon,
     entry: &LexiconEntry,
     inventories: &BTreeMap<InventoryKey, Known>,
-    earlier: &mut Earlier,
+    signs: &mut Signs,
 ) -> Result<i64> {
     let connection = job.connection;
-    let is_new = signs::find_sign(connection, &entry.gloss)?.is_none();
-    let sign = signs::sign_glossed(connection, &entry.gloss)?;
+    let sign = signs.glossed(job, &entry.gloss)?;
     for (language, text) in &entry.translations {
-        signs::add_text(connection, sign, language, text)?;
+        signs::add_text(connection, sign.id, language, text)?;
     }
-    let tokens = signs::tokens_of_sign(connection, sign)?;
-    let known = earlier.next(job, &entry.gloss, &tokens)?;
-    let known = known.and_then(|id| tokens.iter().find(|token| token.id == id));
+    let known = sign.earlier.pop();
+    let is_known = known.is_some();
     let source = Some(cells(job, table, entry).to_string());
     let token = match known {
         Some(token) => {
+            let id = token.id;
             if token.source != source {
-                let row = TokenRow {
-                    source,
-                    ..token.clone()
-                };
-                signs::update_token(connection, &row)?;
+                signs::update_token(connection, &TokenRow { source, ..token })?;
             }
-            token.id
+            id
         }
         None => {
             let row = TokenRow {
-                sign_id: sign,
+                sign_id: sign.id,
                 origin: Origin::Lexicon,
-                citation: !tokens.iter().any(|token| token.citation),
+                citation: !sign.has_citation,
                 source,
                 ..TokenRow::default()
             };
+            sign.has_citation = true;
             job.count("tokens", 1);
             signs::insert_token(connection, &row)?
         }
@@ -261,11 +287,10 @@ fn import_entry(
         .iter()
         .map(|coding| value_row(coding, inventories))
         .collect();
-    if known.is_some() && !signs::values(connection, token)?.starts_with(&values) {
+    if is_known && !signs::values(connection, token)?.starts_with(&values) {
         job.counts.changed("tokens", 1);
     }
     signs::set_values(connection, token, &values)?;
-    job.count("signs", usize::from(is_new));
     Ok(token)
 }
 

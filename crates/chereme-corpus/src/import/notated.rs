@@ -199,11 +199,10 @@ fn import_sign(
 fn insert_token(job: &mut Job<'_>, gloss: &str, line: Option<i64>) -> Result<i64> {
     let is_new = signs::find_sign(job.connection, gloss)?.is_none();
     let sign = signs::sign_glossed(job.connection, gloss)?;
-    let tokens = signs::tokens_of_sign(job.connection, sign)?;
     let row = TokenRow {
         sign_id: sign,
         origin: Origin::Lexicon,
-        citation: !tokens.iter().any(|token| token.citation),
+        citation: !signs::has_citation(job.connection, sign)?,
         source: Some(json!({ "file": job.file_name, "line": line }).to_string()),
         ..TokenRow::default()
     };

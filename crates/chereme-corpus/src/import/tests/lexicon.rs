@@ -324,3 +324,28 @@ fn json_lines_are_read_entry_by_entry_or_refused() {
     }
     assert_eq!(total(&mut corpus, ""), 2, "nothing of them was stored");
 }
+
+#[test]
+fn rows_of_one_gloss_become_tokens_of_one_sign_with_one_citation_form() {
+    const ROWS: u32 = 50;
+    let desk = Desk::new();
+    let found = |name: &str, gloss: &dyn Fn(u32) -> String| -> [u32; 3] {
+        let mut corpus = desk.corpus(&format!("{name}.chereme"));
+        let rows: String = (0..ROWS)
+            .map(|row| format!("{},U,x\n", gloss(row)))
+            .collect();
+        let table = desk.file(
+            &format!("{name}.csv"),
+            &format!("gloss,Handshape,Class\n{rows}"),
+        );
+        import(&mut corpus, &table, "{}");
+        let list = "SELECT count(*), sum(citation), count(DISTINCT sign_id) FROM token";
+        let found = (corpus.store.read())
+            .query_row(list, [], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]));
+        found.expect("counted")
+    };
+    let many = found("many", &|row| format!("G{row}"));
+    assert_eq!(many, [ROWS, ROWS, ROWS]);
+    let one = found("one", &|_| "A".to_owned());
+    assert_eq!(one, [ROWS, 1, 1]);
+}
