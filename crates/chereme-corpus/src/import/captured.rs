@@ -1,6 +1,6 @@
 //! Imports captures in formats other than BVH: markers, curves and skeletons, and tiers of other programs.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use super::report::ReportFinding;
 use super::understood::MovementRead;
 use super::{
     FileReport, FileStatus, ImportOptions, Job, again, bvh, eaf, inventory, lexicon, notated,
-    points, tracks,
+    points, tracks, whole,
 };
 use crate::db::motion;
 use crate::db::recordings::MotionTrackRow;
@@ -126,7 +126,7 @@ fn head(path: &Path) -> Result<Vec<u8>> {
 pub(super) fn import_gltf(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let folder = job.path.parent().unwrap_or(Path::new("")).to_owned();
     scene(job, progress, |bytes| {
-        let beside = |name: &str| fs::read(folder.join(name)).ok();
+        let beside = |name: &str| whole::read(&folder.join(name)).ok();
         gltf::read(bytes, &beside).map_err(|it| it.to_string())
     })
 }

@@ -22,6 +22,7 @@ mod report;
 mod tests;
 mod tracks;
 mod understood;
+mod whole;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -537,11 +538,7 @@ fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
     for path in paths {
         match fs::metadata(path) {
             Ok(found) if found.is_dir() => walk(path, 0, &mut files),
-            Ok(_) => files.push(Candidate {
-                path: path.clone(),
-                reader: readers::reader(path).ok_or_else(|| readers::unread(path)),
-                named: true,
-            }),
+            Ok(_) => files.push(Candidate::new(path.clone(), true)),
             Err(error) => files.push(Candidate::broken(path, error)),
         }
     }
@@ -558,6 +555,19 @@ fn gather(paths: &[PathBuf]) -> Vec<Candidate> {
 }
 
 impl Candidate {
+    /// Returns the candidate for a path. Only regular files are opened: a pipe may never end.
+    fn new(path: PathBuf, named: bool) -> Self {
+        let reader = match whole::check_kind(&path) {
+            Ok(()) => readers::reader(&path).ok_or_else(|| readers::unread(&path)),
+            Err(error) => Err(error),
+        };
+        Self {
+            path,
+            reader,
+            named,
+        }
+    }
+
     /// Returns a candidate for a path that cannot be read at all, so that the import reports it.
     fn broken(path: &Path, error: std::io::Error) -> Self {
         Self {
@@ -597,14 +607,13 @@ fn walk(folder: &Path, depth: usize, files: &mut Vec<Candidate>) {
                 walk(&path, depth + 1, files);
             }
         } else if !hidden {
-            let reader = match readers::copied(&path) {
-                Some(why) => Err(why),
-                None => readers::reader(&path).ok_or_else(|| readers::unread(&path)),
-            };
-            files.push(Candidate {
-                path,
-                reader,
-                named: false,
+            files.push(match readers::copied(&path) {
+                Some(why) => Candidate {
+                    path,
+                    reader: Err(why),
+                    named: false,
+                },
+                None => Candidate::new(path, false),
             });
         }
     }

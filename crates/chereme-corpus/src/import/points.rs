@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use chereme_formats::keypoints::{Reader, frame_of_name};
 use sha2::{Digest, Sha256};
 
-use super::{FileReport, Job, captured};
+use super::{FileReport, Job, captured, whole};
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
@@ -80,7 +80,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         let total = files.len() as u64;
         let mut digest = Sha256::new();
         for (done, (number, path)) in (0..).zip(&files) {
-            let bytes = fs::read(path).map_err(|error| Error::file(path, error))?;
+            let bytes = whole::read(path)?;
             digest.update(&bytes);
             let at = |error| wrong(error).at(path.display().to_string());
             reader.push(Some(*number), &bytes).map_err(at)?;

@@ -8,6 +8,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "le chemin n’est pas en UTF-8, et en texte c’est celui d’un autre fichier : {path}",
     ),
     (
+        "it is no regular file, but a pipe, a socket or a device",
+        "ce n’est pas un fichier ordinaire, mais un tube, une socket ou un périphérique",
+    ),
+    (
+        "save what comes from it as a file, and import that",
+        "enregistrez dans un fichier ce qui en vient, et importez-le",
+    ),
+    (
         "rename one of the two files",
         "renommez l’un des deux fichiers",
     ),

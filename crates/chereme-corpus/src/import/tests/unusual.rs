@@ -1,4 +1,4 @@
-//! Tests of files that are unusual as files: names that are not UTF-8.
+//! Tests of files that are unusual as files: names that are not UTF-8, pipes.
 
 use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt as _;
@@ -76,4 +76,38 @@ fn a_name_that_is_as_text_that_of_another_file_is_refused() {
     assert!(finding.message.contains("not UTF-8"), "{}", finding.message);
     assert!(finding.remedy.is_some());
     assert_eq!(names(&corpus), ["take%FF"]);
+}
+
+#[test]
+fn pipes_are_left_out_of_folders_and_refused_by_name_without_a_wait() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let files: [(&[u8], _); 1] = [(b"take.bvh", MOVEMENT.to_owned())];
+    let folder = folder(&desk, b"in", &files);
+    let pipes = ["take.srt", "take.txt", "film_000000000000_keypoints.json"];
+    let pipes = pipes.map(|name| folder.join(name));
+    let made = std::process::Command::new("mkfifo").args(&pipes).status();
+    assert!(made.expect("run").success());
+    let report = take(&mut corpus, &[folder]);
+    assert!(!report.has_refusals());
+    let skipped = report
+        .files
+        .iter()
+        .filter(|it| it.status == FileStatus::Skipped);
+    let skipped: Vec<&ReportFinding> = skipped.flat_map(|it| &it.findings).collect();
+    assert_eq!(skipped.len(), 3);
+    for finding in skipped {
+        assert!(
+            finding.message.contains("no regular file"),
+            "{}",
+            finding.message
+        );
+        assert!(finding.remedy.is_some());
+    }
+    assert_eq!(names(&corpus), ["take"]);
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    let alone = corpus.import(&pipes[..1], &options, &mut Progress::new(&mut hear));
+    let error = alone.expect_err("refused");
+    assert!(error.to_string().contains("no regular file") && error.remedy().is_some());
 }
