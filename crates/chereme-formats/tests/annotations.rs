@@ -340,3 +340,56 @@ proptest! {
         prop_assert!(findings.iter().all(|it| it.message.contains("no titles") || it.message.contains("lines")), "{:?}", findings);
     }
 }
+
+#[test]
+fn negative_times_read_back_and_unreadable_ones_are_named() {
+    let tiers = vec![("G", vec!["A".to_owned(), "B".into(), "C".into()])];
+    for (from, length) in [(-500, 1500), (-4_000_001, 250), (-1000, 1000)] {
+        let whole = document(tiers.clone(), from, length);
+        let text = write(&whole);
+        let (found, _) = transcript(text.as_bytes()).expect("what was written");
+        assert_eq!(told(&found), told(&whole), "{text}");
+    }
+    let text = write(&document(tiers.clone(), -500, 1500));
+    assert!(
+        text.starts_with("G\t\t-00:00:00.500\t-0.500\t00:00:01.000\t1.000\t"),
+        "{text}"
+    );
+    let whole = document(tiers, 500, 1000);
+    let all = told(&whole);
+    let good = write(&whole);
+    for (from, to) in [
+        ("1.500\t00:00:02", "n/a\t00:00:02"),
+        ("00:00:00.500\t0.500", "00:00:00.-500\t0.-500"),
+        ("00:00:02.500\t2.500\t00:00:03", "\t\t00:00:03"),
+        ("1.500\t00:00:01.000\t1.000\tA", "x\t00:00:01.000\t1.000\tA"),
+    ] {
+        let damaged = good.replacen(from, to, 1);
+        assert_ne!(damaged, good);
+        let at = 1
+            + (0..3)
+                .find(|&at| damaged.lines().nth(at) != good.lines().nth(at))
+                .expect("a change");
+        let (found, findings) = transcript(damaged.as_bytes()).expect("a table");
+        let mut rest = all.clone();
+        rest.remove(at - 1);
+        assert_eq!(told(&found), rest, "{damaged}");
+        let named = findings
+            .iter()
+            .any(|it| it.line == Some(at as u64) && it.message.contains("a row was left out"));
+        assert!(named, "{damaged}: {findings:?}");
+    }
+    for (text, want) in [
+        ("-0:01.5", Some(-1_500_000)),
+        ("-1:00:00.25", Some(-3_600_250_000)),
+        ("-0.5", Some(-500_000)),
+        ("0:-1.5", None),
+        ("--1", None),
+        ("0:00:00.-5", None),
+        ("-", None),
+    ] {
+        let found = text.parse::<Moment>().ok();
+        let want = want.map(|it| Moment::Time(Instant::from_micros(it)));
+        assert_eq!(found, want, "{text}");
+    }
+}

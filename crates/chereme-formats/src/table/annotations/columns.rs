@@ -111,37 +111,24 @@ impl Columns {
     /// participant, begin, end and duration in one or several forms, the annotation. `None` for other
     /// tables.
     pub(super) fn of_export(table: &Cells) -> Option<Self> {
-        let times = table
-            .header
-            .iter()
-            .skip(1)
-            .filter(|cell| form(cell).is_some());
-        if times.count() < 2 {
+        let titles = table.header.iter().skip(1);
+        if titles.filter(|cell| form(cell).is_some()).count() < 2 {
             return None;
         }
         let rows: Vec<&[String]> = std::iter::once(table.header.as_slice())
             .chain(table.rows.iter().map(|row| row.cells.as_slice()))
             .take(LOOKED_AT)
             .collect();
-        let form = |column: usize| {
-            let mut cells = rows.iter().filter_map(|row| row.get(column));
-            let first = form(cells.next()?)?;
-            cells.all(|cell| form(cell) == Some(first)).then_some(first)
-        };
         let width = table.header.len();
-        let begin = (1..width).find(|&column| form(column).is_some())?;
-        let run = (begin..width).take_while(|&column| form(column).is_some());
-        let mut times: Vec<(usize, Form)> = run
-            .filter_map(|column| Some((column, form(column)?)))
-            .collect();
-        // The annotations may all be numbers.
-        if begin + times.len() == width {
-            times.pop();
-        }
+        let forms: Vec<Option<Form>> = (0..width).map(|column| usual(&rows, column)).collect();
+        // At most the participant stands between the tier and the times.
+        let begin = (1..width.min(3)).find(|&column| forms[column].is_some())?;
+        let run: Vec<Form> = forms[begin..].iter().map_while(|form| *form).collect();
+        let times = repeated(&run, begin + run.len() == width)?;
         let value = begin + times.len();
         let alike = |wanted: Form| -> Vec<usize> {
-            let own = times.iter().filter(|(_, form)| *form == wanted);
-            own.map(|(column, _)| *column).collect()
+            let own = (begin..).zip(times).filter(|(_, form)| **form == wanted);
+            own.map(|(column, _)| column).collect()
         };
         let (form, columns) = [Form::Millis, Form::Seconds, Form::Clock]
             .map(|form| (form, alike(form)))
@@ -154,7 +141,8 @@ impl Columns {
         let ends = columns.len() > 2
             || rows.iter().all(|row| {
                 let at = |column: usize| micros(row.get(column)?, form);
-                at(columns[0]) <= at(columns[1])
+                let both = at(columns[0]).zip(at(columns[1]));
+                both.is_none_or(|(start, end)| start <= end)
             });
         let second = Some(time(columns[1]));
         let mut found = Self {
@@ -272,8 +260,34 @@ impl Form {
     }
 }
 
+/// Returns the form of the times in a column: that of at least half of its cells, while the others have none. A damaged
+/// time must not change the meaning of the rest.
+fn usual(rows: &[&[String]], column: usize) -> Option<Form> {
+    let found = rows.iter().filter_map(|row| form(row.get(column)?));
+    let found: Vec<Form> = found.collect();
+    let first = *found.first()?;
+    let alike = found.iter().all(|form| *form == first);
+    (alike && 2 * found.len() >= rows.len()).then_some(first)
+}
+
+/// Returns the beginning of a run of forms that holds begin, end and perhaps duration, each in the same forms. `to_end`
+/// says that no column follows the run, so that its last one holds the values, all of which are numbers.
+fn repeated(run: &[Form], to_end: bool) -> Option<&[Form]> {
+    let run = &run[..run.len().saturating_sub(usize::from(to_end))];
+    let fits = |&(each, times): &(usize, usize)| {
+        let all = each * times;
+        all <= run.len()
+            && (each..all).all(|at| run[at] == run[at - each])
+            && (1..each).all(|at| !run[..at].contains(&run[at]))
+    };
+    let most = [(3, 3), (2, 3), (3, 2), (2, 2), (1, 3), (1, 2)];
+    let (each, times) = most.into_iter().find(fits)?;
+    Some(&run[..each * times])
+}
+
 fn form(cell: &str) -> Option<Form> {
     let cell = cell.trim();
+    let cell = cell.strip_prefix('-').unwrap_or(cell);
     let digits = |text: &str| !text.is_empty() && text.bytes().all(|b| b.is_ascii_digit());
     if digits(cell) {
         return Some(Form::Millis);

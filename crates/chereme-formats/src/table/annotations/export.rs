@@ -115,20 +115,26 @@ pub fn write(transcript: &Transcript) -> String {
     write_tab_rows(&rows)
 }
 
-/// Returns milliseconds as `00:00:01.500`.
+/// Returns milliseconds as `00:00:01.500`, or `-00:00:01.500` before the start.
 fn clock(ms: i64) -> String {
-    let (seconds, rest) = (ms / 1000, ms % 1000);
+    let (seconds, rest) = (ms.unsigned_abs() / 1000, ms.unsigned_abs() % 1000);
     let (minutes, seconds) = (seconds / 60, seconds % 60);
     format!(
-        "{:02}:{:02}:{seconds:02}.{rest:03}",
+        "{}{:02}:{:02}:{seconds:02}.{rest:03}",
+        sign(ms),
         minutes / 60,
         minutes % 60
     )
 }
 
-/// Returns milliseconds as `1.500`.
+/// Returns milliseconds as `1.500`, or `-1.500` before the start.
 fn seconds(ms: i64) -> String {
-    format!("{}.{:03}", ms / 1000, ms % 1000)
+    let size = ms.unsigned_abs();
+    format!("{}{}.{:03}", sign(ms), size / 1000, size % 1000)
+}
+
+fn sign(ms: i64) -> &'static str {
+    if ms < 0 { "-" } else { "" }
 }
 
 /// Sorts the annotations of a tier, ends each before the next begins, and leaves those out for which no time remains.

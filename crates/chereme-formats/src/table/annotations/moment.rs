@@ -149,14 +149,16 @@ fn moment(text: &str) -> Option<Moment> {
     Some(Moment::Time(Instant::from_micros(micros?)))
 }
 
-/// Reads `S.S`, `M:SS.S` or `H:MM:SS.S` as microseconds.
+/// Reads `S.S`, `M:SS.S` or `H:MM:SS.S` as microseconds; a minus before it makes all of it negative.
 fn clock(text: &str) -> Option<i64> {
+    let (sign, text) = text.strip_prefix('-').map_or((1, text), |it| (-1, it));
+    (!text.contains('-')).then_some(())?;
     let (rest, seconds) = text
         .rsplit_once(':')
         .map_or((None, text), |(rest, seconds)| (Some(rest), seconds));
     let micros = decimal(seconds, 6)?;
     let Some(rest) = rest else {
-        return Some(micros);
+        return Some(sign * micros);
     };
     let (hours, minutes) = rest.split_once(':').unwrap_or(("0", rest));
     let whole = |text: &str| text.parse::<u32>().ok().map(i64::from);
@@ -164,7 +166,8 @@ fn clock(text: &str) -> Option<i64> {
         .checked_mul(60)?
         .checked_add(whole(minutes)?)?;
     (0..60_000_000).contains(&micros).then_some(())?;
-    minutes.checked_mul(60_000_000)?.checked_add(micros)
+    let micros = minutes.checked_mul(60_000_000)?.checked_add(micros)?;
+    Some(sign * micros)
 }
 
 /// Reads a decimal number times ten to the power `shift`, with further decimals rounded.
