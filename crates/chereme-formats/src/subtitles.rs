@@ -52,7 +52,9 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
         _ => Error::NoCues,
     })?;
     let is_vtt = text.trim_start_matches('\u{feff}').starts_with("WEBVTT");
-    let mut cues = Vec::new();
+    let mut cues: Vec<(Span, String, u64)> = Vec::new();
+    // In SubRip, text after a blank line goes on with the cue, as other programs read it.
+    let mut follows_cue = false;
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
         if is_vtt && is_block(text) {
@@ -71,18 +73,49 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
                     )
                     .with_remedy("write 00:00:01,000 --> 00:00:02,500")
                 });
+                while lines.next_if(|(_, text)| is_text(text)).is_some() {}
+                follows_cue = false;
+                continue;
+            }
+            let mut after = lines.clone().filter(|(_, text)| !text.trim().is_empty());
+            let number = text.trim().parse::<u64>().is_ok();
+            let names = |(_, text): &(u64, &str)| text.contains("-->");
+            let is_name = number && after.next().is_some_and(|it| names(&it))
+                || is_vtt && lines.peek().is_some_and(names);
+            if text.trim().is_empty() || is_name {
+                continue;
+            }
+            match cues.last_mut().filter(|_| follows_cue && !is_vtt) {
+                Some((_, said, _)) => {
+                    findings.add("blank lines within cues", || {
+                        Finding::note(line, format!("the text {:?} stands after a blank line; it was added to the cue before it", text.trim()))
+                    });
+                    let between = if said.is_empty() { "" } else { "\n" };
+                    *said = format!("{said}{between}{}", text.trim_end());
+                }
+                None => findings.add("lines outside cues", || {
+                    Finding::warning(
+                        line,
+                        format!(
+                            "the line {:?} belongs to no cue and was left out",
+                            text.trim()
+                        ),
+                    )
+                    .with_remedy(
+                        "write it below the times of its cue, with no blank line before it",
+                    )
+                }),
             }
             continue;
         };
+        follows_cue = true;
         if settings {
             findings.add("positions of cues", || {
                 Finding::note(line, "the position of the cue was left out")
             });
         }
         let mut said: Vec<&str> = Vec::new();
-        while let Some((_, text)) =
-            lines.next_if(|(_, text)| !text.trim().is_empty() && times(text).is_none())
-        {
+        while let Some((_, text)) = lines.next_if(|(_, text)| is_text(text)) {
             said.push(text.trim_end());
         }
         // The number of the next cue stands directly before its times if a blank line is missing.
@@ -99,6 +132,11 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
         return Err(Error::NoCues);
     }
     Ok((transcript(cues, is_vtt, &mut findings), findings.finish()))
+}
+
+/// Reports whether a line below the times of a cue is of its text.
+fn is_text(line: &str) -> bool {
+    !line.trim().is_empty() && times(line).is_none()
 }
 
 fn is_block(line: &str) -> bool {

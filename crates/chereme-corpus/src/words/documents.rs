@@ -284,6 +284,18 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "{text} ne sont pas des temps ; le sous-titre a été laissé de côté",
     ),
     (
+        "the text {text} stands after a blank line; it was added to the cue before it",
+        "le texte {text} se trouve après une ligne vide ; il a été ajouté au sous-titre qui précède",
+    ),
+    (
+        "the line {text} belongs to no cue and was left out",
+        "la ligne {text} n’appartient à aucun sous-titre et a été laissée de côté",
+    ),
+    (
+        "write it below the times of its cue, with no blank line before it",
+        "écrivez-la sous les temps de son sous-titre, sans ligne vide devant elle",
+    ),
+    (
         "the position of the cue was left out",
         "la position du sous-titre a été laissée de côté",
     ),

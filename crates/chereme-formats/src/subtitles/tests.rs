@@ -65,6 +65,49 @@ fn skipped_lines_are_reported() {
 }
 
 #[test]
+fn text_after_a_blank_line_is_added_or_named() {
+    type Case<'c> = (&'c str, &'c [&'c str], &'c [Option<u64>]);
+    let cases: [Case<'_>; 6] = [
+        (
+            "1\n00:00:01,000 --> 00:00:02,000\nx\n\n\ny\n\n5\n\n2\n\n00:00:03,000 --> 00:00:04,000\n\nz\n",
+            &["subtitles|1000-2000|x\ny\n5", "subtitles|3000-4000|z"],
+            &[Some(6), Some(8), Some(14)],
+        ),
+        (
+            "title\n\n1\n00:00:01,000 --> 00:00:02,000\nx\n",
+            &["subtitles|1000-2000|x"],
+            &[Some(1)],
+        ),
+        (
+            "1\n00:00:01,000 --> 00:00:02,000\nx\n\n2\nsoon --> later\na\n\nb\n",
+            &["subtitles|1000-2000|x"],
+            &[Some(6), Some(9)],
+        ),
+        (
+            "WEBVTT\n\na name\n00:01.000 --> 00:02.000\nx\n\ny\nz\n",
+            &["subtitles|1000-2000|x"],
+            &[Some(1), Some(7), Some(8)],
+        ),
+        (
+            "1\n00:00:01,000 --> 00:00:02,000\nx\n\n2\n",
+            &["subtitles|1000-2000|x\n2"],
+            &[Some(5)],
+        ),
+        (
+            "1\n00:00:01,000 --> 00:00:02,000\nx\n\n",
+            &["subtitles|1000-2000|x"],
+            &[],
+        ),
+    ];
+    for (text, expected, lines) in cases {
+        let (transcript, findings) = read(text.as_bytes()).expect("subtitles");
+        assert_eq!(cues(&transcript), expected, "{text}");
+        let found: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
+        assert_eq!(found, lines, "{text}{findings:?}");
+    }
+}
+
+#[test]
 fn files_without_a_cue_are_refused() {
     for bytes in [
         &b""[..],
