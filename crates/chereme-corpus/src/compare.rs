@@ -4,6 +4,7 @@ use std::path::Path;
 
 use chereme_formats::compare::{self, Conflict, Difference, Merged};
 use chereme_formats::eaf::{self, Transcript, patched, raw, to_raw};
+use chereme_formats::table::annotations;
 use chereme_formats::{subtitles, textgrid};
 use chereme_sign::Remedy;
 use serde::Serialize;
@@ -149,6 +150,9 @@ fn write_eaf(mine: &[u8], whole: &Transcript) -> Result<Vec<u8>> {
     Ok(bytes)
 }
 
+/// The number of bytes that are enough to see whether a table is one of annotations.
+const TABLE_HEAD: usize = 1 << 14;
+
 /// Reads a document. Its contents determine its format; the ending of its name does if they do not.
 fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
     let head = &bytes[..bytes.len().min(4096)];
@@ -158,6 +162,11 @@ fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
     if says(b"ooTextFile") || says(b"ooBinaryFile") {
         let (it, _) = textgrid::read(bytes).map_err(|error| fault(error.to_string()))?;
         return Ok((it, Format::TextGrid));
+    }
+    let table = &bytes[..bytes.len().min(TABLE_HEAD)];
+    if !says(b"<?xml") && !says(b"<ANNOTATION_DOCUMENT") && annotations::is_export(table) {
+        let (it, _) = annotations::transcript(bytes).map_err(|error| fault(error.to_string()))?;
+        return Ok((it, Format::Other));
     }
     if says(b"-->") && !says(b"<?xml") {
         let (it, _) = subtitles::read(bytes).map_err(|error| fault(error.to_string()))?;
@@ -179,6 +188,25 @@ fn read(name: &str, bytes: &[u8]) -> Result<(Transcript, Format)> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn every_annotation_file_that_an_import_reads_is_compared() {
+        let table = b"G\t\t00:00:01.000\t00:00:02.000\tCHAT --> <b>\nG\t\t00:00:03.000\t00:00:04.000\t\"x\n";
+        let subtitles = b"1\n00:00:01,000 --> 00:00:02,000\nCHAT\n";
+        let short = b"File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n1\n<exists>\n1\n\"IntervalTier\"\n\"G\"\n0\n1\n1\n0\n1\n\"CHAT\"\n";
+        let titled = b"Tier\tBegin Time - msec\tEnd Time - msec\tAnnotation\nG\t1\t2\tCHAT\n";
+        for (name, bytes, rows) in [
+            ("a.elan.txt", &table[..], 2),
+            ("merge_file_1", &table[..], 2),
+            ("a.tsv", &titled[..], 1),
+            ("a.srt", &subtitles[..], 1),
+            ("a.TextGrid", &short[..], 1),
+        ] {
+            let (found, _) = read(name, bytes).expect(name);
+            let all: usize = found.tiers.iter().map(|it| it.annotations.len()).sum();
+            assert_eq!(all, rows, "{name}");
+        }
+    }
 
     #[test]
     fn a_file_whose_contents_show_no_format_is_read_by_the_ending_of_its_name() {
