@@ -1,6 +1,8 @@
 //! Imports tiers, annotations and vocabularies from ELAN's annotation files into a recording.
 
 mod remap;
+mod renames;
+mod settle;
 mod target;
 mod update;
 mod vocabulary;
@@ -28,6 +30,7 @@ use crate::media::is_same_film;
 use crate::progress::Progress;
 use crate::tokens;
 use remap::{remap, set_role};
+use renames::Rename;
 pub(super) use vocabulary::tier_inventory;
 
 /// The properties in which a file describes its recording.
@@ -49,7 +52,7 @@ pub(super) fn add(
     report: &mut FileReport,
     progress: &mut Progress<'_>,
 ) -> Result<bool> {
-    let there = standing_tiers(job, recording, (transcript, None), report)?;
+    let there = standing_tiers(job, recording, (transcript, None), &[], report)?;
     if !there.is_empty() {
         return Ok(false);
     }
@@ -98,8 +101,18 @@ pub(super) fn import_as(
         }
     };
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
-    let base = target.transcript(job, read)?;
-    let there = standing_tiers(job, recording, (&transcript, base.as_ref()), &mut report)?;
+    let mut base = target.transcript(job, read)?;
+    let renames = match &mut base {
+        Some(base) => renames::take_names(job, recording, base, &transcript)?,
+        None => Vec::new(),
+    };
+    let there = standing_tiers(
+        job,
+        recording,
+        (&transcript, base.as_ref()),
+        &renames,
+        &mut report,
+    )?;
     if let Some(base) = target.base.as_ref().filter(|_| same && !takes) {
         if remap(job, &there, &transcript, &guesses, &mut report)? == 0 {
             let mut same = FileReport::unchanged(job.path, target.elsewhere(job));
@@ -128,8 +141,8 @@ pub(super) fn import_as(
         let sides = (&transcript, base.as_ref());
         update(
             job,
-            (recording, &there),
-            sides,
+            (recording, there),
+            (sides, &renames),
             &guesses,
             &mut report,
             progress,
@@ -171,24 +184,28 @@ pub(super) fn import_as(
 /// them.
 fn update(
     job: &mut Job<'_>,
-    (recording, there): (i64, &BTreeMap<String, TierRow>),
-    (transcript, base): (&Transcript, Option<&Transcript>),
+    (recording, mut there): (i64, BTreeMap<String, TierRow>),
+    ((transcript, base), renames): ((&Transcript, Option<&Transcript>), &[Rename]),
     guesses: &[TierGuess],
     report: &mut FileReport,
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let own_edits = job.options.own_edits;
     let merge = own_edits == OwnEdits::Merge;
-    let broken = if merge {
-        rules_broken(job, recording)?
-    } else {
-        BTreeSet::new()
-    };
+    let before = settle::Before::of(job.connection, recording)?;
     let (counts, inventories) = (job.counts.clone(), job.inventories.clone());
     // A token refers to its annotation until tokens are derived again.
     edits::defer_references(job.connection)?;
     job.connection.execute_batch("SAVEPOINT edits")?;
-    let tier_rows = write_tiers(job, (recording, there), transcript, guesses, report)?;
+    let mut notes = renames::write(job.connection, renames, &mut there)?;
+    let tier_rows = write_tiers(job, (recording, &there), transcript, guesses, report)?;
+    renames::write_parents(
+        job.connection,
+        (transcript, base.filter(|_| merge)),
+        &mut there,
+        &tier_rows,
+    )?;
+    let there = &there;
     let sides = update::Sides {
         transcript,
         guesses,
@@ -198,6 +215,7 @@ fn update(
         merge,
     };
     let updated = update::annotations(job, &sides, progress)?;
+    notes.extend(before.settle(job.connection, &updated.written)?);
     report.status = FileStatus::Updated;
     let lost = updated
         .edits
@@ -206,6 +224,10 @@ fn update(
     let lost: Vec<String> = lost.map(ToString::to_string).collect();
     if lost.is_empty() || matches!(own_edits, OwnEdits::Theirs | OwnEdits::Merge) {
         job.connection.execute_batch("RELEASE edits")?;
+        let ours = updated.written.clone();
+        report
+            .findings
+            .extend(notes.into_iter().map(ReportFinding::note));
         remap(job, there, transcript, guesses, report)?;
         job.count("annotations", updated.changes.added);
         job.counts.changed("annotations", updated.changes.changed);
@@ -217,16 +239,7 @@ fn update(
             }
         }
         updated.report(&sides, report);
-        if merge && let Some(rule) = rules_broken(job, recording)?.difference(&broken).next() {
-            return Err(Error::wrong(format!(
-                "the file and your edits contradict each other: {rule}"
-            ))
-            .advise(Remedy::choice(
-                Choice::Side,
-                "import it with --theirs (the file as it is) or --mine (your edits)",
-            )));
-        }
-        return Ok(());
+        return before.check(job.connection, &ours, merge);
     }
     job.connection
         .execute_batch("ROLLBACK TO edits; RELEASE edits")?;
@@ -256,13 +269,6 @@ fn update(
     }
     report.findings.splice(0..0, lines);
     Ok(())
-}
-
-/// Returns the tier rules that a recording violates.
-fn rules_broken(job: &Job<'_>, recording: i64) -> Result<BTreeSet<String>> {
-    let set = crate::check::tier_set(job.connection, recording)?;
-    let broken = chereme_sign::tier::check(&set).into_iter();
-    Ok(broken.map(|it| it.to_string()).collect())
 }
 
 /// Guesses the roles of tiers from the caller's mapping, then the file, then the names. A tier whose name says nothing
@@ -461,6 +467,7 @@ fn standing_tiers(
     job: &Job<'_>,
     recording: i64,
     (transcript, base): (&Transcript, Option<&Transcript>),
+    renames: &[Rename],
     report: &mut FileReport,
 ) -> Result<BTreeMap<String, TierRow>> {
     let mut there: BTreeMap<String, TierRow> = tiers::tiers(job.connection, recording)?
@@ -472,9 +479,12 @@ fn standing_tiers(
             let Some(row) = there.remove(&mine) else {
                 continue;
             };
-            report.findings.push(ReportFinding::note(format!(
-                "the tier {theirs:?} of the file is {mine:?} in the corpus"
-            )));
+            // A tier that only the file renamed gets its new name here.
+            if !renames.iter().any(|it| it.from == mine && it.to == theirs) {
+                report.findings.push(ReportFinding::note(format!(
+                    "the tier {theirs:?} of the file is {mine:?} in the corpus"
+                )));
+            }
             there.insert(theirs, row);
         }
     }

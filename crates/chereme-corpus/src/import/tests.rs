@@ -5,6 +5,7 @@ mod captured;
 mod film;
 mod lexicon;
 mod reading;
+mod renamed;
 #[cfg(target_os = "linux")]
 mod unusual;
 

@@ -352,6 +352,22 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "ses annotations étaient déjà là : {changed} modifiées, {added} ajoutées, {removed} retirées, {same} telles quelles",
     ),
     (
+        "the tier {name} is called {other} in the file: it has the new name here, too",
+        "l’acteur {name} s’appelle {other} dans le fichier : il porte ce nouveau nom ici aussi",
+    ),
+    (
+        "annotations that the file does not have moved with the annotations above them: {count}",
+        "annotations que le fichier n’a pas, déplacées avec celles au-dessus d’elles : {count}",
+    ),
+    (
+        "with this file, an annotation that it does not have would break a rule: {rule}",
+        "avec ce fichier, une annotation qu’il n’a pas enfreindrait une règle : {rule}",
+    ),
+    (
+        "add that annotation to the file, or remove it from the corpus, then import the file again",
+        "ajoutez cette annotation au fichier, ou retirez-la du corpus, puis importez le fichier à nouveau",
+    ),
+    (
         "the tier {name}, which the file has not, is kept",
         "l’acteur {name}, que le fichier n’a pas, est gardé",
     ),

@@ -134,6 +134,16 @@ fn descend(a: &Transcript, b: &Transcript, ids: &HashMap<&str, AnnotationAddress
     shared > 0 && 10 * agree >= 9 * shared
 }
 
+/// Returns for each tier of `a` the tier of `b` that it was matched with.
+pub(super) fn matched_tiers(a: &Transcript, b: &Transcript) -> Vec<Option<usize>> {
+    let ids: HashMap<&str, AnnotationAddress> = places(b)
+        .into_iter()
+        .map(|place| (get(b, place).id.as_str(), place))
+        .collect();
+    let trusted = descend(a, b, &ids);
+    tiers(a, b, if trusted { Some(&ids) } else { None })
+}
+
 fn tiers(
     a: &Transcript,
     b: &Transcript,

@@ -16,7 +16,7 @@ pub use merge::{Conflict, Merged, merge, merge_two, with_candidates};
 use crate::eaf::Transcript;
 use crate::eaf::convert::{Annotation, AnnotationAddress, Tier};
 use chereme_sign::Stereotype;
-use identity::{Matching, matched};
+use identity::{Matching, matched, matched_tiers};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
@@ -178,6 +178,17 @@ pub fn diff(a: &Transcript, b: &Transcript) -> Difference {
         }
     }
     difference
+}
+
+/// Returns the tiers of `a` that have another name in `b`, each with its new name.
+#[must_use]
+pub fn renamed_tiers(a: &Transcript, b: &Transcript) -> Vec<(String, String)> {
+    let pairs = a.tiers.iter().zip(matched_tiers(a, b));
+    pairs
+        .filter_map(|(tier, other)| Some((tier, &b.tiers[other?])))
+        .filter(|(tier, other)| tier.name != other.name)
+        .map(|(tier, other)| (tier.name.clone(), other.name.clone()))
+        .collect()
 }
 
 fn compare(

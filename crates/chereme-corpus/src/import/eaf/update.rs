@@ -6,6 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_formats::compare::renamed_tiers;
 use chereme_formats::eaf::convert::{Annotation, AnnotationAddress, Transcript};
 use chereme_formats::roles::TierGuess;
 use chereme_motion::Instant;
@@ -33,6 +34,8 @@ pub(super) struct Updated {
     listed: Vec<String>,
     /// The number of annotations in the corpus that stay although the file never had them.
     kept: usize,
+    /// The rows of the file's annotations.
+    pub(super) written: BTreeSet<i64>,
 }
 
 /// The files that an update compares, and the affected tiers.
@@ -119,7 +122,13 @@ pub(super) fn alike(a: &Transcript, b: &Transcript) -> (usize, usize) {
         let own = Base::of(transcript);
         own.parts
     };
-    let (a, b) = (parts_of(a), parts_of(b));
+    let mut a = a.clone();
+    for (from, to) in renamed_tiers(&a, b) {
+        for tier in a.tiers.iter_mut().filter(|it| it.name == from) {
+            tier.name.clone_from(&to);
+        }
+    }
+    let (a, b) = (parts_of(&a), parts_of(b));
     let same = a.iter().filter(|(key, parts)| b.get(*key) == Some(*parts));
     (same.count(), a.len().max(b.len()))
 }
@@ -143,8 +152,20 @@ pub(super) fn annotations(
             conflicts: Vec::new(),
             listed: Vec::new(),
             kept: 0,
+            written: BTreeSet::new(),
         },
     };
+    // Annotations of the file may lie below a tier that the file no longer has.
+    let own = &sides.transcript.tiers;
+    for (_, row) in sides
+        .known
+        .iter()
+        .filter(|(name, _)| own.iter().all(|tier| tier.name != **name))
+    {
+        for row in tiers::annotations(job.connection, row.id)? {
+            work.know(&row);
+        }
+    }
     let order = parents_first(sides.transcript);
     for &tier in &order {
         job.report_progress(progress)?;
@@ -159,6 +180,7 @@ pub(super) fn annotations(
     for (tier, row) in std::mem::take(&mut work.left).into_iter().rev() {
         work.remove(job, &tier, &row)?;
     }
+    work.done.written = work.rows.into_values().collect();
     Ok(work.done)
 }
 
@@ -266,6 +288,13 @@ impl Update<'_> {
         self.base.as_ref()?.parts.get(&key)
     }
 
+    /// Notes the id of a row in the file.
+    fn know(&mut self, row: &AnnotationRow) {
+        let name = row.external_id.clone();
+        self.names
+            .insert(row.id, name.unwrap_or_else(|| format!("#{}", row.id)));
+    }
+
     /// Reports whether a row was added or edited in the corpus.
     fn is_own(&self, tier: &str, row: &AnnotationRow) -> bool {
         let known = row.external_id.as_deref();
@@ -285,9 +314,7 @@ impl Update<'_> {
         let sides = self.sides;
         let it = &sides.transcript.tiers[tier];
         for row in &old {
-            let name = row.external_id.clone();
-            self.names
-                .insert(row.id, name.unwrap_or_else(|| format!("#{}", row.id)));
+            self.know(row);
         }
         let symbolic = it.stereotype.is_some_and(|it| {
             matches!(

@@ -3,13 +3,17 @@
 use super::*;
 
 /// Imports paths and returns the complete report.
-fn take(corpus: &mut Corpus, paths: &[PathBuf], options: &ImportOptions) -> ImportReport {
+pub(super) fn take(
+    corpus: &mut Corpus,
+    paths: &[PathBuf],
+    options: &ImportOptions,
+) -> ImportReport {
     let mut hear = unheard;
     let report = corpus.import(paths, options, &mut Progress::new(&mut hear));
     report.expect("imported")
 }
 
-fn choose(own_edits: OwnEdits) -> ImportOptions {
+pub(super) fn choose(own_edits: OwnEdits) -> ImportOptions {
     ImportOptions {
         own_edits,
         ..ImportOptions::default()
@@ -21,12 +25,12 @@ fn names(corpus: &Corpus) -> Vec<String> {
     all.into_iter().map(|row| row.name).collect()
 }
 
-fn has(findings: &[ReportFinding], what: &str) -> bool {
+pub(super) fn has(findings: &[ReportFinding], what: &str) -> bool {
     findings.iter().any(|it| it.message.contains(what))
 }
 
 /// Changes the annotation with this value.
-fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
+pub(super) fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
     use crate::db::tiers;
     let done = corpus.store.operation("annotate", |connection| {
         let mut all = Vec::new();
