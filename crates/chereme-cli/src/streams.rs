@@ -1,6 +1,6 @@
 //! Standard input and output instead of files, for arguments written `-`.
 
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -12,14 +12,12 @@ pub(crate) fn is_standard(path: &Path) -> bool {
     path.as_os_str() == "-"
 }
 
-/// Reads all of standard input.
+/// Reads all of standard input; it may be as large as a file that is read whole.
 pub(crate) fn read() -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    io::stdin()
-        .lock()
-        .read_to_end(&mut bytes)
-        .map_err(|error| Error::file("-", error))?;
-    Ok(bytes)
+    Ok(chereme_corpus::read_stream(
+        io::stdin().lock(),
+        Path::new("-"),
+    )?)
 }
 
 /// Reads all of standard input as text.

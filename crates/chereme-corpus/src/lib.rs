@@ -134,7 +134,7 @@ pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use import::{
     BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,
     JointRole, MovementRead, Outcome, OwnEdit, OwnEdits, ReportFinding, RootRead, Saying, Shared,
-    TiersRead, TrackRead, Understood, Unread, readable_files, time_of_day,
+    TiersRead, TrackRead, Understood, Unread, read_stream, readable_files, time_of_day,
 };
 pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;

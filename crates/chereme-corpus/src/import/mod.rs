@@ -57,6 +57,7 @@ pub use understood::{
     BodyRead, Changes, ConventionRead, JointRole, MovementRead, RootRead, Shared, TiersRead,
     TrackRead, Understood,
 };
+pub use whole::read_stream;
 
 /// Returns the time of day for a timecode such as `12:34:56:07` or `12:34:56:07@25`; the number behind `@` is the
 /// frames per second, 30 by default.
@@ -65,8 +66,6 @@ pub fn time_of_day(timecode: &str) -> Option<Instant> {
     chereme_formats::timecode::time_of_day(timecode, 30.0)
 }
 
-/// The size of the largest annotation file, lexicon or inventory that is read, in bytes.
-const LARGEST_TEXT: u64 = 512 << 20;
 /// The greatest depth of folders that an import searches.
 const DEEPEST_FOLDER: usize = 32;
 
@@ -200,15 +199,7 @@ impl Job<'_> {
     }
 
     fn bytes(&self) -> Result<Vec<u8>> {
-        let size = fs::metadata(self.path)
-            .map_err(|error| Error::file(self.path, error))?
-            .len();
-        if size > LARGEST_TEXT {
-            return Err(Error::wrong(format!("the file has {size} bytes"))
-                .at(self.path.display().to_string())
-                .advise("an annotation file, lexicon or inventory has at most 512 MiB"));
-        }
-        fs::read(self.path).map_err(|error| Error::file(self.path, error))
+        whole::read(self.path)
     }
 }
 
@@ -429,7 +420,12 @@ impl Import<'_> {
             kind: READERS[reader].kind,
             hash: match READERS[reader].kind {
                 film::KIND => film::hash(path)?,
-                _ => hash_file(path, progress)?,
+                _ => {
+                    if !READERS[reader].is_streamed() {
+                        whole::check(path)?;
+                    }
+                    hash_file(path, progress)?
+                }
             },
             base: self.base,
             inventories: inventories.clone(),

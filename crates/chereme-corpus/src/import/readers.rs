@@ -69,6 +69,11 @@ impl Reader {
         }
     }
 
+    /// Returns whether such files are read piece by piece, so that they may be of any size.
+    pub(super) fn is_streamed(&self) -> bool {
+        ["bvh", film::KIND].contains(&self.kind)
+    }
+
     /// Returns whether such files hold the movement of a body.
     pub(super) fn is_movement(&self) -> bool {
         matches!(self.contents, Contents::Movement(_))

@@ -1,9 +1,13 @@
 //! Reads files whole, if they are files that can be.
 
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+
+/// The size of the largest file that is read whole, in bytes.
+const LARGEST: u64 = 512 << 20;
 
 /// Refuses what is no regular file, such as a pipe, which may never end; a path that leads nowhere passes.
 pub(super) fn check_kind(path: &Path) -> Result<()> {
@@ -17,8 +21,76 @@ pub(super) fn check_kind(path: &Path) -> Result<()> {
     }
 }
 
-/// Returns the bytes of a file, if it is a regular one.
-pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
+/// Refuses what is no regular file, and files that are too large to be read whole.
+pub(super) fn check(path: &Path) -> Result<()> {
     check_kind(path)?;
-    fs::read(path).map_err(|error| Error::file(path, error))
+    let found = fs::metadata(path).map_err(|error| Error::file(path, error))?;
+    match found.len() {
+        size if size > LARGEST => Err(too_large(path, format!("the file has {size} bytes"))),
+        _ => Ok(()),
+    }
+}
+
+/// Returns the bytes of a file that can be read whole.
+pub(super) fn read(path: &Path) -> Result<Vec<u8>> {
+    check(path)?;
+    let file = File::open(path).map_err(|error| Error::file(path, error))?;
+    read_stream(file, path)
+}
+
+/// Returns the bytes of a stream, such as standard input, which the error calls `path`.
+///
+/// # Errors
+/// Fails if the stream cannot be read, or has more bytes than a file that is read whole may have; the rest is not
+/// read then.
+pub fn read_stream(stream: impl Read, path: &Path) -> Result<Vec<u8>> {
+    within(LARGEST, stream, path)
+}
+
+fn within(largest: u64, stream: impl Read, path: &Path) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    stream
+        .take(largest + 1)
+        .read_to_end(&mut bytes)
+        .map_err(|error| Error::file(path, error))?;
+    if bytes.len() as u64 > largest {
+        let message = format!("the file has more than {largest} bytes");
+        return Err(too_large(path, message));
+    }
+    Ok(bytes)
+}
+
+fn too_large(path: &Path, message: String) -> Error {
+    Error::wrong(message)
+        .at(path.display().to_string())
+        .advise("an annotation file, lexicon or inventory has at most 512 MiB")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stream_is_read_up_to_the_limit_and_no_further() {
+        let path = Path::new("-");
+        assert_eq!(within(3, &b"abc"[..], path).expect("read"), b"abc");
+        let mut rest = &b"abcdef"[..];
+        let error = within(3, &mut rest, path).expect_err("too large");
+        assert_eq!(error.to_string(), "the file has more than 3 bytes");
+        assert!(error.remedy().is_some());
+        assert_eq!(rest, b"ef", "one byte shows that it is too large");
+        assert!(within(1 << 16, std::io::repeat(0), path).is_err());
+    }
+
+    #[test]
+    fn a_file_that_is_too_large_is_refused_by_its_size() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("a.eaf");
+        let file = File::create(&path).expect("made");
+        file.set_len(LARGEST).expect("set");
+        assert!(check(&path).is_ok());
+        file.set_len(12 << 30).expect("set");
+        let error = read(&path).expect_err("too large");
+        assert_eq!(error.to_string(), "the file has 12884901888 bytes");
+    }
 }

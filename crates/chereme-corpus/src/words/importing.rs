@@ -2,6 +2,10 @@
 
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const IMPORTING: &[(&str, &str)] = &[
+    (
+        "the file has more than {n} bytes",
+        "le fichier a plus de {n} octets",
+    ),
     ("the file has {n} bytes", "le fichier a {n} octets"),
     (
         "the path is not UTF-8, and as text it is that of another file: {path}",

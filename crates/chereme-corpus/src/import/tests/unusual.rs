@@ -1,4 +1,4 @@
-//! Tests of files that are unusual as files: names that are not UTF-8, pipes.
+//! Tests of files that are unusual as files: names that are not UTF-8, pipes, sizes.
 
 use std::ffi::OsStr;
 use std::os::unix::ffi::OsStrExt as _;
@@ -110,4 +110,33 @@ fn pipes_are_left_out_of_folders_and_refused_by_name_without_a_wait() {
     let alone = corpus.import(&pipes[..1], &options, &mut Progress::new(&mut hear));
     let error = alone.expect_err("refused");
     assert!(error.to_string().contains("no regular file") && error.remedy().is_some());
+}
+
+#[test]
+fn files_too_large_to_be_read_whole_are_refused_before_any_of_it_is_read() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    for name in ["a.eaf", "a.csv", "a.json", "a.glb", "a.trc"] {
+        let path = desk.file(name, "");
+        let file = fs::File::options().write(true).open(&path).expect("open");
+        file.set_len(12 << 30).expect("set");
+        // A file that is read after all reports its bytes.
+        let mut stop = |step: Step<'_>| match step.unit {
+            Unit::Bytes => std::ops::ControlFlow::Break(()),
+            _ => std::ops::ControlFlow::Continue(()),
+        };
+        let options = ImportOptions::default();
+        let report = corpus.import(
+            std::slice::from_ref(&path),
+            &options,
+            &mut Progress::new(&mut stop),
+        );
+        let refused = report.expect(name).files.remove(0);
+        assert_eq!(refused.status, FileStatus::Refused, "{name}");
+        assert_eq!(
+            refused.findings[0].message,
+            "the file has 12884901888 bytes"
+        );
+        fs::remove_file(path).expect("removed");
+    }
 }
