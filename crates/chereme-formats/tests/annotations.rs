@@ -84,6 +84,20 @@ fn faults_name_line_and_column() {
 }
 
 #[test]
+fn a_duration_beyond_the_range_of_times_is_a_fault() {
+    let text = "tier,start,duration,value\n\
+        t,2562047788:00:00,999999999999,a\n\
+        t,f18446744073709551615,f1,a\n\
+        t,f18446744073709551614,f1,a\n";
+    assert_eq!(
+        shown(text),
+        "4: Add -|t f18446744073709551614..f18446744073709551615 a - -\n\
+         line 2, end: the duration 999999999999.000s from 9223372036800.000s is too long\n\
+         line 3, end: the duration f1 from f18446744073709551615 is too long\n"
+    );
+}
+
+#[test]
 fn text_that_is_no_table_is_refused() {
     assert_eq!(read(b"", None), Err(TableError::Empty));
     assert_eq!(read(b"\n \n", None), Err(TableError::Empty));

@@ -282,13 +282,52 @@ fn odd_times_are_corrected_and_reported() {
         ),
         "p: a1 0-100 back a2 50-50 point a3 55-60 open a4 70-70 end\n",
         &[
-            "TIME_VALUE=\"x\" of <TIME_SLOT> is not a whole number",
+            "TIME_VALUE=\"x\" of <TIME_SLOT> is not a whole number within",
             "ends before it starts",
             "\"a2\" has no length",
             "\"a4\" has no length",
             "overlap",
         ],
     );
+}
+
+#[test]
+fn times_that_no_clock_can_hold_are_left_out_and_reported() {
+    let last = i64::MAX / 40_000;
+    for (time, fits) in [
+        (last.to_string(), true),
+        ((last + 1).to_string(), false),
+        (i64::MAX.to_string(), false),
+        ("99999999999999999999999".to_owned(), false),
+        ((-last).to_string(), true),
+        ((-last - 1).to_string(), false),
+        (i64::MIN.to_string(), false),
+    ] {
+        for units in ["milliseconds", "PAL-frames", "NTSC-frames"] {
+            let slots = format!("ts1=0 ts2={time}");
+            let text = eaf(&slots, &tier("p root", "a1:ts1-ts2=x"));
+            let text = text.replace("\"milliseconds\"", &format!("\"{units}\""));
+            let (document, mut findings) = raw::read(text.as_bytes()).expect("a document");
+            let (transcript, more) = from_raw(&document);
+            findings.extend(more);
+            let want = format!(
+                "TIME_VALUE=\"{time}\" of <TIME_SLOT> is not a whole number within the range of times; it was left out"
+            );
+            let finding = findings.iter().find(|it| it.message == want);
+            assert_eq!(finding.is_none(), fits, "{time} {units}: {findings:?}");
+            if let Some(finding) = finding {
+                assert_eq!(finding.line, Some(6), "{time} {units}");
+            }
+            let ends = [i64::MIN, i64::MAX];
+            for it in transcript.tiers.iter().flat_map(|tier| &tier.annotations) {
+                let span = [it.span.start().micros(), it.span.end().micros()];
+                assert!(
+                    span.iter().all(|at| !ends.contains(at)),
+                    "{time} {units}: {span:?}"
+                );
+            }
+        }
+    }
 }
 
 #[test]

@@ -172,6 +172,14 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "<{element}> dans <{outer}> n’est pas connu d’EAF ; il a été laissé de côté",
     ),
     (
+        "{attribute} of <{element}> is not a whole number within the range of times; it was left out",
+        "{attribute} de <{element}> n’est pas un nombre entier dans l’étendue des temps ; il a été laissé de côté",
+    ),
+    (
+        "{attribute} of <{element}> is not a whole number; it was left out",
+        "{attribute} de <{element}> n’est pas un nombre entier ; il a été laissé de côté",
+    ),
+    (
         "the attributes of <{element}> were left out",
         "les attributs de <{element}> ont été laissés de côté",
     ),
@@ -330,6 +338,10 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
     (
         "name the columns recording, tier, start, end, value, action, id",
         "appelez les colonnes recording, tier, start, end, value, action, id",
+    ),
+    (
+        "the duration {length} from {start} is too long",
+        "la durée {length} à partir de {start} est trop longue",
     ),
     (
         "the end {end} is not after the start {start}",

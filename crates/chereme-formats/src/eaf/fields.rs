@@ -10,12 +10,16 @@ pub(super) struct DocumentReader<'a> {
     pub(super) cursor: Cursor<'a>,
 }
 
+/// The largest time, in milliseconds or in PAL or NTSC frames, that fits into microseconds.
+const LARGEST_TIME: u64 = i64::MAX as u64 / 40_000;
+
 /// The destination of an attribute's value.
 pub(super) enum Field<'f, 'a> {
     Text(&'f mut Text<'a>),
     Required(&'f mut Text<'a>),
     Optional(&'f mut Option<Text<'a>>),
-    Number(&'f mut Option<i64>),
+    /// A time in milliseconds or frames that is within [`LARGEST_TIME`] of the start.
+    Time(&'f mut Option<i64>),
     Flag(&'f mut Option<bool>),
     Ignored,
 }
@@ -27,9 +31,9 @@ impl<'a> Field<'_, 'a> {
         match self {
             Self::Text(text) | Self::Required(text) => **text = value,
             Self::Optional(text) => **text = Some(value),
-            Self::Number(number) => match whole_number(&value) {
-                Some(value) => **number = Some(value),
-                None => return Err(("a whole number", value)),
+            Self::Time(time) => match whole_number(&value) {
+                Some(value) if value.unsigned_abs() <= LARGEST_TIME => **time = Some(value),
+                _ => return Err(("a whole number within the range of times", value)),
             },
             Self::Flag(flag) => match boolean(&value) {
                 Some(value) => **flag = Some(value),

@@ -117,7 +117,7 @@ impl<'a> DocumentReader<'a> {
                     "RELATIVE_MEDIA_URL",
                     Field::Optional(&mut media.relative_url),
                 ),
-                ("TIME_ORIGIN", Field::Number(&mut media.time_origin)),
+                ("TIME_ORIGIN", Field::Time(&mut media.time_origin)),
                 ("EXTRACTED_FROM", Field::Optional(&mut media.extracted_from)),
             ],
         )?;
@@ -133,7 +133,7 @@ impl<'a> DocumentReader<'a> {
                 ("LINK_URL", Field::Required(&mut file.url)),
                 ("MIME_TYPE", Field::Required(&mut file.mime_type)),
                 ("RELATIVE_LINK_URL", Field::Optional(&mut file.relative_url)),
-                ("TIME_ORIGIN", Field::Number(&mut file.time_origin)),
+                ("TIME_ORIGIN", Field::Time(&mut file.time_origin)),
                 (
                     "ASSOCIATED_WITH",
                     Field::Optional(&mut file.associated_with),
@@ -173,7 +173,7 @@ impl<'a> DocumentReader<'a> {
             tag,
             &mut [
                 ("TIME_SLOT_ID", Field::Required(&mut slot.id)),
-                ("TIME_VALUE", Field::Number(&mut slot.value)),
+                ("TIME_VALUE", Field::Time(&mut slot.value)),
             ],
         )?;
         slot.kept = self.leaf(tag, kept)?;

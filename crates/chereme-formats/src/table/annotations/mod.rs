@@ -18,6 +18,7 @@ pub use moment::{Moment, MomentError, TimeUnit};
 use super::cells::{Cells, Row as RawRow, TableError};
 use crate::finding::Finding;
 use crate::tally::Findings;
+use chereme_motion::Instant;
 use chereme_sign::text::{did_you_mean, nearest};
 use columns::{Columns, Time};
 use serde::Serialize;
@@ -185,10 +186,20 @@ fn row(
     if end.is_none() {
         end = match (start, moment(3, columns.duration)?) {
             (Some(Moment::Time(start)), Some(Moment::Time(length))) => {
-                Some(Moment::Time(start.shifted(length.micros())))
+                let end = start.micros().checked_add(length.micros());
+                let end = end.ok_or_else(|| {
+                    fault(3, format!("the duration {length} from {start} is too long"))
+                })?;
+                Some(Moment::Time(Instant::from_micros(end)))
             }
             (Some(Moment::Frame(start)), Some(Moment::Frame(length))) => {
-                Some(Moment::Frame(start.saturating_add(length)))
+                let end = start.checked_add(length).ok_or_else(|| {
+                    fault(
+                        3,
+                        format!("the duration f{length} from f{start} is too long"),
+                    )
+                })?;
+                Some(Moment::Frame(end))
             }
             _ => None,
         };
