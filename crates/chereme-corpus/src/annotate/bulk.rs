@@ -18,7 +18,7 @@ impl Corpus {
     /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.
     ///
     /// `name` is the name of the table in errors. Rows without a recording apply to `recording`, or to the only one of
-    /// the corpus. The format is that of [`chereme_formats::table::annotations::read`].
+    /// the corpus. An annotation named by its id must be in the recording and on the tier that its row names. The format is that of [`chereme_formats::table::annotations::read`].
     ///
     /// # Errors
     /// [`Error::Several`] with every row that cannot be carried out; nothing is changed then.
@@ -99,7 +99,14 @@ fn change(row: &ChangeRow, recording: Option<&Name>, place: &str) -> Result<Anno
     let recording = own.as_ref().or(recording);
     let tier = |text: &str| TierName::read(text, recording);
     let named = || match (&row.id, &row.tier, row.start) {
-        (Some(id), _, _) => Ok((AnnotationName::read(id, recording), row.start)),
+        (Some(id), tier, _) => {
+            let annotation = AnnotationName::Placed {
+                annotation: Box::new(AnnotationName::read(id, recording)),
+                recording: own.clone(),
+                tier: tier.clone(),
+            };
+            Ok((annotation, row.start))
+        }
         (None, Some(text), Some(start)) => {
             let tier = tier(text)?;
             Ok((AnnotationName::At { tier, start }, None))

@@ -10,8 +10,8 @@ use rusqlite::Connection;
 
 use super::Work;
 use crate::address::{self, Address, Name};
-use crate::db::edits;
 use crate::db::tiers::{self as tier_rows, AnnotationRow, TierRow};
+use crate::db::{edits, recordings};
 use crate::error::{Error, Result};
 
 /// A tier in a request.
@@ -78,6 +78,15 @@ pub enum AnnotationName {
         /// Its start.
         start: Moment,
     },
+    /// An annotation with the recording and the tier that the request says it has; others are refused.
+    Placed {
+        /// The annotation.
+        annotation: Box<Self>,
+        /// Its recording, if the request names one.
+        recording: Option<Name>,
+        /// Its tier's name or address, if the request names one.
+        tier: Option<String>,
+    },
 }
 
 impl AnnotationName {
@@ -140,7 +149,56 @@ impl Work<'_> {
                 let start = self.scope_of(tier.id)?.instant(*start, false)?;
                 self.starting(&tier, start)
             }
+            AnnotationName::Placed {
+                annotation,
+                recording,
+                tier,
+            } => {
+                let row = self.annotation(annotation)?;
+                self.check_place(&row, recording.as_ref(), tier.as_deref())?;
+                Ok(row)
+            }
         }
+    }
+
+    /// Refuses an annotation that is not in the recording and on the tier that a request names for it.
+    fn check_place(
+        &self,
+        row: &AnnotationRow,
+        recording: Option<&Name>,
+        tier: Option<&str>,
+    ) -> Result<()> {
+        let there = tier_rows::tier(self.connection, row.tier_id)?;
+        let home = recordings::recording(self.connection, there.recording_id)?;
+        let elsewhere = |named: String| {
+            Error::wrong(format!(
+                "the row names {named}, but annotation:{} is on the tier {:?} of recording:{} ({:?})",
+                row.id, there.name, home.id, home.name
+            ))
+            .at(Address::Annotation(row.id).to_string())
+            .advise("correct the row; a table made from another corpus does not fit this one")
+        };
+        if let Some(name) = recording {
+            let is_home = match name {
+                Name::Number(id) => *id == home.id,
+                // Several recordings may have the name.
+                Name::Text(text) if *text == home.name => true,
+                Name::Text(_) => {
+                    address::recording(self.connection, name).is_ok_and(|named| named.id == home.id)
+                }
+            };
+            if !is_home {
+                return Err(elsewhere(Address::Recording(name.clone()).to_string()));
+            }
+        }
+        if let Some(text) = tier {
+            let within = Name::Number(home.id);
+            let named = TierName::read(text, Some(&within)).and_then(|name| self.tier(&name));
+            if !named.is_ok_and(|named| named.id == there.id) {
+                return Err(elsewhere(format!("the tier {text:?}")));
+            }
+        }
+        Ok(())
     }
 
     fn called(&self, recording: Option<&Name>, id: &str) -> Result<AnnotationRow> {

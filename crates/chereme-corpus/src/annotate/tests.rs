@@ -6,6 +6,7 @@ mod laws;
 mod paste;
 mod replace;
 mod scheme;
+mod tables;
 mod tiers;
 
 use chereme_formats::table::annotations::Moment;

@@ -112,6 +112,14 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "ou donnez l’unité avec la table : --unit ms, --unit s ou --unit frames",
     ),
     (
+        "the row names {what}, but annotation:{id} is on the tier {tier} of recording:{number} ({name})",
+        "la ligne nomme {what}, mais annotation:{id} est sur l’acteur {tier} de recording:{number} ({name})",
+    ),
+    (
+        "correct the row; a table made from another corpus does not fit this one",
+        "corrigez la ligne ; une table faite d’un autre corpus ne va pas avec celui-ci",
+    ),
+    (
         "write a row for each change below the row of column names",
         "écrivez une ligne par modification, sous la ligne des noms de colonnes",
     ),
