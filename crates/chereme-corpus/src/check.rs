@@ -17,13 +17,16 @@ use crate::db::check as rows;
 use crate::db::motion::hex;
 use crate::db::search::State;
 use crate::db::{notations, recordings, tiers, tracks};
-use crate::error::Result;
+use crate::error::{Cause, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
+
+#[cfg(test)]
+mod tests;
 
 /// The result of a check.
 #[derive(Debug, Clone, Default, Serialize)]
@@ -76,18 +79,38 @@ impl Corpus {
             progress: &mut *progress,
         };
         let connection = self.store.read();
-        looking.database(connection)?;
-        looking.blocks(connection)?;
-        looking.movement(connection)?;
+        let looked = looking.database(connection);
+        looking.go_on("database", "the file", looked)?;
+        let looked = looking.blocks(connection);
+        looking.go_on("block", "blocks", looked)?;
+        let looked = looking.movement(connection);
+        looking.go_on("movement", "tracks", looked)?;
         looking.inventories(connection)?;
-        looking.notations(connection)?;
-        looking.tiers(connection)?;
-        for fault in self.store.check_history(looking.progress)? {
-            looking.fault("history", "history", fault, BACKUP);
+        let looked = looking.notations(connection);
+        looking.go_on("notation", "notations", looked)?;
+        let looked = looking.tiers(connection);
+        looking.go_on("tier", "recordings", looked)?;
+        match self.store.check_history(looking.progress) {
+            Ok(faults) => {
+                for fault in faults {
+                    looking.fault("history", "history", fault, BACKUP);
+                }
+            }
+            Err(error) => looking.go_on("history", "history", Err(error))?,
         }
-        self.check_index(&mut report)?;
+        let looked = self.check_index(&mut report);
+        Looking {
+            report: &mut report,
+            progress: &mut *progress,
+        }
+        .go_on("database", "search index", looked)?;
         if mend {
-            self.mend(&mut report, progress)?;
+            let mended = self.mend(&mut report, progress);
+            Looking {
+                report: &mut report,
+                progress,
+            }
+            .go_on("database", "derived rows", mended)?;
         }
         report.ok = report.faults.is_empty();
         Ok(report)
@@ -178,6 +201,21 @@ impl Looking<'_, '_> {
         });
     }
 
+    /// Reports what keeps one part of the check from being done, so that the others follow.
+    ///
+    /// # Errors
+    /// Fails if the work was stopped, or the file cannot be read or written at all.
+    fn go_on(&mut self, kind: &'static str, place: &str, looked: Result<()>) -> Result<()> {
+        let Err(error) = looked else { return Ok(()) };
+        let is_of_file = error.cause().is_some_and(|cause| cause != Cause::Damaged);
+        if is_of_file || matches!(error, crate::Error::Stopped) {
+            return Err(error);
+        }
+        let message = format!("this part cannot be read: {error}");
+        self.fault(kind, place, message, BACKUP);
+        Ok(())
+    }
+
     fn count(&mut self, what: &'static str) -> Result<()> {
         let count = self.report.checked.entry(what).or_default();
         *count += 1;
@@ -195,8 +233,18 @@ impl Looking<'_, '_> {
     }
 
     fn database(&mut self, connection: &Connection) -> Result<()> {
-        for line in rows::integrity(connection)? {
-            self.fault("database", "the file", line, BACKUP);
+        let lines = rows::integrity(connection)?;
+        let broken = rows::broken_rows(connection, &lines)?;
+        for line in lines {
+            let table = rows::table_of(&line);
+            if !broken.iter().any(|it| Some(it.table.as_str()) == table) {
+                self.fault("database", "the file", line, BACKUP);
+            }
+        }
+        for it in broken {
+            let place = format!("row {} of {}", it.row, it.table);
+            let message = format!("it breaks a rule of its table: {}", it.rule);
+            self.fault("database", place, message, BACKUP);
         }
         for (table, row, other) in rows::broken_references(connection)? {
             let place = format!("row {row} of {table}");
@@ -268,6 +316,7 @@ impl Looking<'_, '_> {
             return track::read::track(connection, row, None).map(|_| ());
         }
         let track = MotionTrack::of_row(connection, row.id)?;
+        track.frame_time()?;
         for group in ChannelGroup::ALL {
             if track.columns_of(group).is_empty() {
                 continue;
@@ -316,7 +365,14 @@ impl Looking<'_, '_> {
     fn tiers(&mut self, connection: &Connection) -> Result<()> {
         let inventories = inventories::load(connection).unwrap_or_default();
         for recording in recordings::recordings(connection)? {
-            let set = tier_set(connection, recording.id)?;
+            let place = format!("recording {:?}", recording.name);
+            let set = match tier_set(connection, recording.id) {
+                Ok(set) => set,
+                Err(error) => {
+                    self.go_on("tier", &place, Err(error))?;
+                    continue;
+                }
+            };
             let mut overlaps: BTreeMap<TierId, u64> = BTreeMap::new();
             for violation in tier::check(&set) {
                 if let Violation::Overlap { tier, .. } = violation {
@@ -359,7 +415,14 @@ impl Looking<'_, '_> {
                     self.progress,
                 )?;
                 Ok(rows::changes(connection)? - before)
-            })?;
+            });
+            let derived = match derived {
+                Ok(derived) => derived,
+                Err(error) => {
+                    self.go_on("tier", &place, Err(error))?;
+                    continue;
+                }
+            };
             if derived > 0 {
                 let place = format!("recording {:?}", recording.name);
                 self.fault(

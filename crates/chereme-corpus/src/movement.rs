@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use chereme_formats::bvh::convert::ClipBuilder;
-use chereme_formats::bvh::raw::{ChannelFix, Column, Hierarchy};
+use chereme_formats::bvh::raw::{ChannelFix, Column, Hierarchy, Number};
 use chereme_motion::anatomy::{Anatomy, Part, Roles};
 use chereme_motion::clip::Channel;
 use chereme_motion::column::{Column as Numbers, Numbers as Form};
@@ -285,6 +285,16 @@ impl MotionTrack {
     /// Returns whether the numbers came from a BVH file, so that they can be written unchanged.
     pub(crate) fn is_of_bvh(&self) -> bool {
         self.exact.is_none()
+    }
+
+    /// Returns the frame time that the file stated, if it did.
+    ///
+    /// # Errors
+    /// Fails if the stored one is no number.
+    pub(crate) fn frame_time(&self) -> Result<Option<Number>> {
+        let stored = self.row.frame_time.as_deref();
+        let time = stored.map(str::parse::<Number>).transpose();
+        time.map_err(|_| Error::wrong("the stored frame time is no number"))
     }
 
     /// Returns the columns of the file for a group's joints.

@@ -1,6 +1,8 @@
 //! The database's own checks for damage.
 
-use rusqlite::Connection;
+use std::collections::BTreeSet;
+
+use rusqlite::{Connection, ErrorCode, OptionalExtension as _};
 use sha2::{Digest, Sha256};
 
 use super::motion::hex;
@@ -13,6 +15,98 @@ pub(crate) fn integrity(connection: &Connection) -> Result<Vec<String>> {
         .query_map([], |row| row.get::<_, String>(0))?
         .collect::<rusqlite::Result<Vec<_>>>()?;
     Ok(lines.into_iter().filter(|line| line != "ok").collect())
+}
+
+/// A row that breaks a rule of its table.
+pub(crate) struct BrokenRow {
+    pub(crate) table: String,
+    pub(crate) row: i64,
+    /// The rule, in words of the database.
+    pub(crate) rule: String,
+}
+
+/// Returns the rows behind those of SQLite's findings that name only the table of a row.
+///
+/// Each row of such a table is stored again in an empty table with the same rules, which refuses the broken ones.
+pub(crate) fn broken_rows(connection: &Connection, findings: &[String]) -> Result<Vec<BrokenRow>> {
+    let named = findings.iter().filter_map(|line| table_of(line));
+    let tables: BTreeSet<&str> = named.collect();
+    let mut broken = Vec::new();
+    if tables.is_empty() {
+        return Ok(broken);
+    }
+    // The empty table refers to tables that it does not stand beside.
+    connection.pragma_update(None, "foreign_keys", false)?;
+    let found = tables
+        .into_iter()
+        .try_for_each(|table| add_broken_rows(connection, table, &mut broken));
+    connection.pragma_update(None, "foreign_keys", true)?;
+    found.map(|()| broken)
+}
+
+/// Returns the table that a finding about the content of a row names.
+pub(crate) fn table_of(finding: &str) -> Option<&str> {
+    let (what, place) = finding.rsplit_once(" in ")?;
+    let is_of_row = what == "CHECK constraint failed" || what.ends_with(" value");
+    is_of_row.then(|| place.split('.').next().unwrap_or(place))
+}
+
+fn add_broken_rows(
+    connection: &Connection,
+    table: &str,
+    broken: &mut Vec<BrokenRow>,
+) -> Result<()> {
+    let made: Option<String> = connection
+        .prepare("SELECT sql FROM main.sqlite_schema WHERE type = 'table' AND name = ?1")?
+        .query_row([table], |row| row.get(0))
+        .optional()?;
+    let has_rowid = made
+        .as_ref()
+        .is_some_and(|sql| !sql.contains("WITHOUT ROWID"));
+    let Some((_, rules)) = made.as_ref().and_then(|sql| sql.split_once('(')) else {
+        return Ok(());
+    };
+    if !has_rowid {
+        return Ok(());
+    }
+    connection.execute_batch(&format!("CREATE TEMP TABLE tried_row ({rules}"))?;
+    let tried = try_rows(connection, table, broken);
+    connection.execute_batch("DROP TABLE temp.tried_row")?;
+    tried
+}
+
+fn try_rows(connection: &Connection, table: &str, broken: &mut Vec<BrokenRow>) -> Result<()> {
+    let rows: Vec<i64> = connection
+        .prepare(&format!(
+            "SELECT rowid FROM main.\"{table}\" ORDER BY rowid"
+        ))?
+        .query_map([], |row| row.get(0))?
+        .collect::<rusqlite::Result<_>>()?;
+    let mut store = connection.prepare(&format!(
+        "INSERT INTO temp.tried_row SELECT * FROM main.\"{table}\" WHERE rowid = ?1"
+    ))?;
+    let mut clear = connection.prepare("DELETE FROM temp.tried_row")?;
+    for row in rows {
+        match store.execute([row]) {
+            Ok(_) => {}
+            Err(rusqlite::Error::SqliteFailure(failure, rule))
+                if failure.code == ErrorCode::ConstraintViolation =>
+            {
+                let rule = rule.unwrap_or_default();
+                let rule = rule
+                    .strip_prefix("CHECK constraint failed: ")
+                    .unwrap_or(&rule);
+                broken.push(BrokenRow {
+                    table: table.to_owned(),
+                    row,
+                    rule: rule.replace("tried_row", table),
+                });
+            }
+            Err(error) => return Err(error.into()),
+        }
+        clear.execute([])?;
+    }
+    Ok(())
 }
 
 /// Returns the rows with references to missing rows, as table, row and table referred to.

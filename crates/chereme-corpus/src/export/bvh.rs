@@ -46,13 +46,7 @@ pub(crate) fn write(
     if !track.is_of_bvh() {
         return write_converted(connection, &track, frames, out);
     }
-    let time = track
-        .row
-        .frame_time
-        .as_deref()
-        .map(str::parse::<Number>)
-        .transpose();
-    let time = time.map_err(|_| Error::wrong("the stored frame time is no number"))?;
+    let time = track.frame_time()?;
     let motion =
         (time.is_some() || !frames.is_empty()).then_some((time.as_ref(), frames.len() as u64));
     let fault = |error: WriteError| Error::wrong(format!("the BVH cannot be written: {error}"));

@@ -214,6 +214,14 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("changeset {operation}", "jeu de modifications {operation}"),
     ("row {row} of {table}", "ligne {row} de {table}"),
     (
+        "it breaks a rule of its table: {rule}",
+        "elle enfreint une règle de sa table : {rule}",
+    ),
+    (
+        "this part cannot be read: {why}",
+        "cette partie ne peut pas être lue : {why}",
+    ),
+    (
         "the new sign got no token",
         "le nouveau signe n’a pas reçu d’occurrence",
     ),
