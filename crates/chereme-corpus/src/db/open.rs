@@ -252,6 +252,12 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             "open it with a newer version of Chereme".into(),
         ));
     }
+    if version < 1 && holds_rows(&connection)? {
+        return Err(refuse(
+            format!("its version number is wrong: it is {version}, and the file holds data"),
+            "take the file from a backup; keep this one too, as its data are still in it".into(),
+        ));
+    }
     if version < 1 {
         return Err(refuse(
             "its making was cut short".into(),
@@ -290,6 +296,21 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
         roles::add_missing(&connection)?;
     }
     Ok(connection)
+}
+
+/// Returns whether any table has a row.
+fn holds_rows(connection: &Connection) -> Result<bool> {
+    let sql = "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'sqlite\\_%' ESCAPE '\\'";
+    let mut statement = connection.prepare(sql)?;
+    let mut tables = statement.query([])?;
+    while let Some(row) = tables.next()? {
+        let table = row.get::<_, String>(0)?.replace('"', "\"\"");
+        let sql = format!("SELECT EXISTS (SELECT 1 FROM \"{table}\")");
+        if connection.query_row(&sql, [], |row| row.get(0))? {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 static WAITING: OnceLock<fn()> = OnceLock::new();
@@ -408,6 +429,59 @@ mod tests {
             error.to_string().contains("does not know: unheard"),
             "{error}"
         );
+    }
+
+    #[test]
+    fn only_a_file_without_rows_may_be_deleted_for_its_version_number() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let empty_all = "PRAGMA foreign_keys = OFF;";
+        let no_tables = "PRAGMA writable_schema = ON; DELETE FROM sqlite_schema;";
+        let one_row = "INSERT INTO recording (id, name, origin) VALUES (1, 'A', 'captured')";
+        for (change, version, deletable) in [
+            (one_row, 0, false),
+            (one_row, -7, false),
+            ("", 0, false),
+            (empty_all, 0, true),
+            (no_tables, 0, true),
+        ] {
+            // The file may not exist.
+            let _ = fs::remove_file(&path);
+            drop(create(&path, |_| Ok(())).expect("made"));
+            let foreign = Connection::open(&path).expect("opened");
+            foreign.execute_batch(change).expect("changed");
+            if deletable {
+                let left: Vec<String> = foreign
+                    .prepare("SELECT name FROM sqlite_schema WHERE type = 'table'")
+                    .and_then(|mut it| it.query_map([], |row| row.get(0))?.collect())
+                    .expect("listed");
+                for table in left.iter().filter(|it| !it.starts_with("sqlite_")) {
+                    let sql = format!("DELETE FROM {table}");
+                    foreign.execute_batch(&sql).expect("emptied");
+                }
+            }
+            foreign
+                .pragma_update(None, "user_version", version)
+                .expect("set");
+            drop(foreign);
+            let Err(error) = open(&path) else {
+                panic!("opened: {change} {version}");
+            };
+            let message = error.to_string();
+            let remedy = error.remedy().map(|it| it.to_string()).unwrap_or_default();
+            assert_eq!(
+                remedy.contains("delete it"),
+                deletable,
+                "{change}: {remedy}"
+            );
+            if !deletable {
+                assert!(
+                    message.contains(&format!("wrong: it is {version}")),
+                    "{message}"
+                );
+                assert!(remedy.contains("from a backup"), "{remedy}");
+            }
+        }
     }
 
     #[test]

@@ -81,6 +81,14 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "open it with a newer version of Chereme",
         "ouvrez-le avec une version plus récente de Chereme",
     ),
+    (
+        "its version number is wrong: it is {n}, and the file holds data",
+        "son numéro de version est faux : c’est {n}, et le fichier contient des données",
+    ),
+    (
+        "take the file from a backup; keep this one too, as its data are still in it",
+        "reprenez le fichier d’une sauvegarde ; gardez aussi celui-ci, car ses données y sont encore",
+    ),
     ("its making was cut short", "sa création a été interrompue"),
     (
         "delete it and create it again",
