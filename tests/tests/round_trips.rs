@@ -183,7 +183,7 @@ fn samples(folder: &Path) -> Result<Vec<PathBuf>> {
     let still = Clip::still(skeleton.into(), Rate::new(25, 1)?, 9);
     let people = "{\"people\":[{\"pose_keypoints_2d\":[10.5,20,0.9,0,0,0]},{\"pose_keypoints_2d\":[300.25,20,0.5,1,2,0.125]}]}";
     let files: Vec<(&str, Vec<u8>)> = vec![
-        ("a.glb", gltf::write(&still, &gltf::About::default())),
+        ("a.glb", gltf::write(&still, &gltf::About::default())?),
         ("b.c3d", c3d::write(&markers()?, Instant::ZERO)?),
         ("c.trc", trc::write("c.trc", &markers()?, Instant::ZERO)?.into_bytes()),
         (

@@ -36,7 +36,7 @@ are stored, or a scene without its movement.
 
 fn main() {
     let mut table = Table::default();
-    let bytes = own_gltf::write(&body(), &own_gltf::About::default());
+    let bytes = own_gltf::write(&body(), &own_gltf::About::default()).expect("a GLB");
     let own = median(|| assert!(own_gltf::read(&bytes, &|_| None).is_ok()));
     let peer = median(|| assert!(sum_of(&bytes) > 100_000.0));
     table.row(

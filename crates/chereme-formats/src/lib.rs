@@ -18,6 +18,7 @@ pub mod keypoints;
 pub mod lexicon;
 pub mod mp4;
 pub mod pose;
+mod reach;
 pub mod roles;
 mod scene;
 pub mod sigml;
@@ -32,4 +33,5 @@ pub mod tracks;
 pub mod trc;
 
 pub use finding::{Finding, Mend, Severity};
+pub use reach::TooFar;
 pub use scene::Scene;

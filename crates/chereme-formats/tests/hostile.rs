@@ -201,7 +201,11 @@ fn formats() -> Vec<Format> {
         }),
         format("srt", SRT, |bytes| subtitles::read(bytes).is_ok()),
         format("vtt", VTT, |bytes| subtitles::read(bytes).is_ok()),
-        format("glb", gltf::write(&body(), &about), gltf_of),
+        format(
+            "glb",
+            gltf::write(&body(), &about).expect("a body"),
+            gltf_of,
+        ),
         format(
             "c3d",
             c3d::write(&markers(), Instant::ZERO).expect("markers"),

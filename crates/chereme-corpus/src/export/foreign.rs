@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::table::annotations;
-use chereme_formats::{c3d, gltf, subtitles, textgrid, trc};
+use chereme_formats::{TooFar, c3d, gltf, subtitles, textgrid, trc};
 use chereme_motion::{Clip, Instant, Span};
 use chereme_sign::Remedy;
 use chereme_sign::TierRole;
@@ -44,8 +44,16 @@ pub(super) fn glb(
         licence: stretch.recording.licence.clone(),
         notes: notes(connection, stretch.recording.id, span)?,
     };
-    put(out, &gltf::write(&clip, &about))?;
+    let bytes = gltf::write(&clip, &about).map_err(|error| too_far(&error))?;
+    put(out, &bytes)?;
     Ok(about.notes.len())
+}
+
+/// Returns the error for a place that does not fit into the file.
+fn too_far(error: &TooFar) -> Error {
+    Error::wrong(error.to_string()).advise(Remedy::command(
+        "import it again with the right --unit, or write .bvh, which holds any number",
+    ))
 }
 
 /// Returns the span of frames of a track on the clock of its recording.
@@ -83,11 +91,13 @@ pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Wri
         licence: stretch.recording.licence.clone(),
         notes: notes(connection, stretch.recording.id, span)?,
     };
-    let bytes = gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| {
-        Error::wrong(error).advise(Remedy::command(
-            "say which joint is what with `chereme track`, or write .glb",
-        ))
-    })?;
+    let bytes =
+        gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| match error {
+            gltf::vrma::WriteError::TooFar(error) => too_far(&error),
+            gltf::vrma::WriteError::NoAvatar(reason) => Error::wrong(reason).advise(
+                Remedy::command("say which joint is what with `chereme track`, or write .glb"),
+            ),
+        })?;
     put(out, &bytes)
 }
 

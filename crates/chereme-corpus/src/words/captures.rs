@@ -60,6 +60,22 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "le paquet {n} a {found} canaux, et le premier {all}",
     ),
     (
+        "joint {name} is too far away to be written in its rest pose",
+        "l’articulation {name} est trop loin pour être écrite, dans sa pose de repos",
+    ),
+    (
+        "joint {name} is too far away to be written in frame {n}",
+        "l’articulation {name} est trop loin pour être écrite, à l’image {n}",
+    ),
+    (
+        "marker {name} is too far away to be written in frame {n}",
+        "le marqueur {name} est trop loin pour être écrit, à l’image {n}",
+    ),
+    (
+        "import it again with the right --unit, or write .bvh, which holds any number",
+        "importez-le de nouveau avec la bonne --unit, ou écrivez un .bvh, qui contient tout nombre",
+    ),
+    (
         "packet {n} is not later than the one before it; it was left out",
         "le paquet {n} n’est pas plus tard que le précédent ; il a été laissé de côté",
     ),

@@ -343,6 +343,47 @@ fn markers_read_back_unchanged_from_c3d() {
 }
 
 #[test]
+fn places_beyond_32_bits_are_refused_by_marker_and_frame() {
+    for (place, residual, metres_per_unit, fits) in [
+        (1.5, 0.5, 0.001, true),
+        (1e8, 0.5, 0.001, true),
+        (1e308, 0.5, 0.001, false),
+        (-1e39, 0.5, 1.0, false),
+        (1.5, 1e60, 0.001, false),
+        // The numbers are written in millimetres.
+        (1e6, 0.5, 7.0, false),
+    ] {
+        let column = |numbers: [f64; 3]| Column::doubles(numbers.to_vec());
+        let marker = |name: &str, place: f64, residual: f64| Marker {
+            group: String::new(),
+            name: name.into(),
+            place: vec![
+                column([0.0; 3]),
+                column([0.0, place, 0.0]),
+                column([0.0; 3]),
+            ],
+            quality: Some(column([0.0, residual, 0.0])),
+        };
+        let points = vec![marker("LFIN", 1.0, 0.5), marker("RFIN", place, residual)];
+        let space = Space::World(Convention {
+            metres_per_unit,
+            axes: "+Z,+X".parse().expect("axes"),
+        });
+        let times = Times::Even(crate::tracks::rate_of(120.0).expect("a rate"));
+        let markers = Markers::new(times, space, points)
+            .expect("markers")
+            .rated(Quality::Residual);
+        let written = super::write(&markers, Instant::ZERO);
+        let want = "marker \"RFIN\" is too far away to be written in frame 1";
+        assert_eq!(
+            written.err().as_deref(),
+            (!fits).then_some(want),
+            "{place} {residual}"
+        );
+    }
+}
+
+#[test]
 fn golden_points_and_numbers_of_c3d() {
     use crate::golden::{compare, put};
     use crate::tests::{bytes, findings, tracks};

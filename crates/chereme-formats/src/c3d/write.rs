@@ -1,6 +1,9 @@
 //! Markers as C3D, in the byte order of PCs and with places as 32-bit numbers.
 
+use chereme_motion::glam::DVec3;
 use chereme_motion::{Axes, Instant, Markers, Quality, Space};
+
+use crate::reach::{TooFar, reaches};
 
 const BLOCK: usize = 512;
 /// The first block of parameters, counted from 1; block 1 is the header.
@@ -88,8 +91,8 @@ impl Parameters {
 /// Units are those of the track if C3D has a name for them, else millimetres. Labels keep 127 bytes.
 ///
 /// # Errors
-/// Fails, with a sentence for the user, if the points are not in a room, the frames have no even rate, or there are
-/// more points than C3D can count.
+/// Fails, with a sentence for the user, if the points are not in a room, the frames have no even rate, there are
+/// more points than C3D can count, or a place does not fit into 32-bit numbers.
 pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
     let Space::World(convention) = markers.space() else {
         return Err(format!(
@@ -116,6 +119,7 @@ pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
         Some((_, unit)) => (1.0, *unit),
         None => (convention.metres_per_unit * 1000.0, "mm"),
     };
+    check_reach(markers, factor).map_err(|error| error.to_string())?;
     let first = (offset.seconds() * rate.per_second()).round().max(0.0) as usize + 1;
     let last = first + frames.max(1) - 1;
     let scale = residual_scale(markers, factor);
@@ -166,6 +170,26 @@ pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
     }
     out.resize(out.len().next_multiple_of(BLOCK), 0);
     Ok(out)
+}
+
+/// Refuses markers with a place or residual that 32-bit numbers cannot hold.
+fn check_reach(markers: &Markers, factor: f64) -> Result<(), TooFar> {
+    let rated = markers.quality() == Some(Quality::Residual);
+    for frame in 0..markers.frames() {
+        for point in markers.points() {
+            let Some(at) = point.at(frame) else { continue };
+            let residual = point.quality.as_ref().filter(|_| rated);
+            let residual = residual.and_then(|column| column.value(frame));
+            if !reaches(at * factor) || !reaches(DVec3::splat(residual.unwrap_or(0.0) * factor)) {
+                return Err(TooFar {
+                    kind: "marker",
+                    name: point.name.clone(),
+                    frame: Some(frame),
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Returns the unit of the residuals in the file, which stores each residual as a count of up to 255 units.

@@ -76,7 +76,7 @@ fn movement_reads_back_to_a_hundredth_of_a_millimetre() {
         name: "CHAT".into(),
         ..About::default()
     };
-    let (scene, findings) = parse(&write(&clip, &about)).expect("a GLB");
+    let (scene, findings) = parse(&write(&clip, &about).expect("written")).expect("a GLB");
     assert_eq!(findings, []);
     assert!(apart(&clip, &scene.clip) < 1e-5);
     assert_eq!(scene.clip.rate(), clip.rate());
@@ -104,7 +104,7 @@ fn annotations_are_stored_where_blender_and_three_js_keep_them() {
         licence: Some("CC0".into()),
         notes: vec![note],
     };
-    let bytes = write(&clip(), &about);
+    let bytes = write(&clip(), &about).expect("written");
     let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
     let document: serde_json::Value =
         serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
@@ -254,7 +254,7 @@ fn documents_that_mean_nothing_are_refused() {
         parse(&document(json!({"skins": []}), &[])),
         Err(Error::NoSkeleton)
     ));
-    let whole = write(&clip(), &About::default());
+    let whole = write(&clip(), &About::default()).expect("written");
     for end in (0..whole.len()).step_by(7) {
         let _ = parse(&whole[..end]);
         let mut changed = whole.clone();
@@ -464,7 +464,7 @@ fn golden_scenes_and_avatars() {
             value: "CHAT".into(),
         }],
     };
-    let bytes = write(&clip(), &about);
+    let bytes = write(&clip(), &about).expect("written");
     scene_file(&mut out, &bytes);
     let (scene, found) = parse(&bytes).expect("a GLB");
     clip_of(&mut out, &scene.clip);
@@ -494,4 +494,77 @@ fn golden_scenes_and_avatars() {
     let bytes = vrma::write(&moving, &anatomy, &expressions, &about).expect("written");
     scene_file(&mut out, &bytes);
     compare("gltf", &out);
+}
+
+#[test]
+fn places_beyond_32_bits_are_refused_by_joint_and_frame() {
+    let at_rest = |joint: usize, offset: f64, tip: f64| {
+        let clip = clip();
+        let mut joints = clip.skeleton().joints().to_vec();
+        joints[joint].offset.y = offset;
+        joints[2].tip = Some(DVec3::X * tip);
+        let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
+        Clip::new(skeleton, clip.rate(), clip.into_channels()).expect("a clip")
+    };
+    let moving = |joint: usize, frame: usize, place: f64| {
+        let clip = clip();
+        let (skeleton, rate) = (clip.skeleton().clone(), clip.rate());
+        let mut channels = clip.into_channels();
+        let mut places = vec![DVec3::ZERO; 20];
+        places[frame].z = place;
+        channels[joint].translations = Some(places);
+        Clip::new(skeleton, rate, channels).expect("a clip")
+    };
+    for (clip, want) in [
+        (at_rest(1, 1e8, 0.1), None),
+        (
+            at_rest(1, 1e38, 0.1),
+            Some("joint \"Arm.L\" is too far away to be written in its rest pose"),
+        ),
+        (
+            at_rest(0, -1e308, 0.1),
+            Some("joint \"Hips root\" is too far away to be written in its rest pose"),
+        ),
+        (
+            at_rest(0, 0.9, 1e300),
+            Some("joint \"Arm.L\" is too far away to be written in its rest pose"),
+        ),
+        (moving(0, 7, 1e8), None),
+        (
+            moving(0, 7, 1e39),
+            Some("joint \"Hips root\" is too far away to be written in frame 7"),
+        ),
+        (
+            moving(2, 19, 1e308),
+            Some("joint \"Arm.L\" is too far away to be written in frame 19"),
+        ),
+    ] {
+        let written = write(&clip, &About::default());
+        assert_eq!(
+            written.as_ref().err().map(ToString::to_string).as_deref(),
+            want
+        );
+        if let Ok(bytes) = written {
+            let text = String::from_utf8_lossy(&bytes);
+            assert!(!text.contains("null"), "{want:?}");
+            assert!(parse(&bytes).is_ok());
+        }
+    }
+    let skeleton = Arc::new(figure());
+    let anatomy = chereme_motion::Anatomy::detect(&skeleton);
+    let still = Channel {
+        rotations: vec![DQuat::IDENTITY; 2],
+        translations: None,
+    };
+    let mut channels = vec![still; skeleton.len()];
+    channels[0].translations = Some(vec![DVec3::Y, DVec3::Y * 1e40]);
+    let rate = Rate::new(30, 1).expect("a rate");
+    let clip = Clip::new(Arc::clone(&skeleton), rate, channels).expect("a clip");
+    let refused = vrma::write(&clip, &anatomy, &[], &About::default());
+    let want = crate::TooFar {
+        kind: "joint",
+        name: skeleton.joint(0).name.clone(),
+        frame: Some(1),
+    };
+    assert_eq!(refused, Err(vrma::WriteError::TooFar(want)));
 }

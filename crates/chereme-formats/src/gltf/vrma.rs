@@ -7,6 +7,8 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side, Skeleton};
 use serde_json::{Map, Value, json};
 
+use crate::reach::{self, TooFar};
+
 use super::write::{About, Parts, container, plain, turn, vector};
 
 /// The strength of a facial expression in each frame, from 0 to 1.
@@ -36,22 +38,35 @@ const PRESETS: [&str; 14] = [
     "neutral",
 ];
 
+/// A reason why a clip cannot be written as VRMA.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum WriteError {
+    /// The skeleton is not that of an avatar, or does not move.
+    #[error("{0}")]
+    NoAvatar(String),
+    /// A place does not fit into 32-bit numbers.
+    #[error(transparent)]
+    TooFar(#[from] TooFar),
+}
+
 /// Returns a clip in metres of model space as VRMA.
 ///
 /// Rotations of joints that VRM does not know are added to those of the bones below them. Only the hips change their
 /// position. Feet of the rest pose stand at height 0.
 ///
 /// # Errors
-/// Fails, with a sentence for the user, if the skeleton lacks hips or arms, or the clip has no frame.
+/// [`WriteError`] if the skeleton lacks hips or arms, the clip has no frame, or a place does not fit into the file.
 pub fn write(
     clip: &Clip,
     anatomy: &Anatomy,
     expressions: &[Expression],
     about: &About,
-) -> Result<Vec<u8>, String> {
+) -> Result<Vec<u8>, WriteError> {
     let skeleton = clip.skeleton();
     if clip.frames() == 0 {
-        return Err("the movement has no frames".to_owned());
+        return Err(WriteError::NoAvatar(
+            "the movement has no frames".to_owned(),
+        ));
     }
     let mut bones: Vec<(String, usize)> = Vec::new();
     for (part, joint, _) in anatomy.found() {
@@ -62,9 +77,11 @@ pub fn write(
     }
     for needed in ["hips", "leftUpperArm", "rightUpperArm"] {
         if !bones.iter().any(|(name, _)| name == needed) {
-            return Err(format!("the skeleton has no {needed}, which avatars need"));
+            let reason = format!("the skeleton has no {needed}, which avatars need");
+            return Err(WriteError::NoAvatar(reason));
         }
     }
+    reach::check(clip)?;
     bones.sort_by_key(|(_, joint)| *joint);
     let rest = t_pose(skeleton, anatomy);
     let parents: Vec<Option<usize>> = bones

@@ -1,10 +1,11 @@
 //! A clip as GLB: joints as nodes, a skin, bones as a mesh, one animation, annotations as extras.
 
 use chereme_motion::glam::{DMat4, DQuat, DVec3};
-use chereme_motion::{Clip, ModelPose, Pose, Skeleton};
+use chereme_motion::{Clip, Skeleton};
 use serde::Serialize;
 use serde_json::{Map, Value, json};
 
+use crate::reach::{self, TooFar, rest};
 use crate::tracks::unique;
 
 /// An annotation of the movement.
@@ -122,8 +123,11 @@ for note in json.loads(scene["chereme_annotations"]):
 /// original name. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
 /// Blender keeps them, and JSON in `animations[0].extras`, where three.js does. `chereme_markers` in the former is
 /// a script that makes them markers of Blender's timeline.
-#[must_use]
-pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
+///
+/// # Errors
+/// [`TooFar`] if a place does not fit into 32-bit numbers.
+pub fn write(clip: &Clip, about: &About) -> Result<Vec<u8>, TooFar> {
+    reach::check(clip)?;
     let skeleton = clip.skeleton();
     let mut parts = Parts::default();
     let animation = animation(clip, about, &mut parts);
@@ -163,7 +167,7 @@ pub fn write(clip: &Clip, about: &About) -> Vec<u8> {
     if let Some(licence) = &about.licence {
         document["asset"]["copyright"] = licence.as_str().into();
     }
-    container(&document, parts.bytes)
+    Ok(container(&document, parts.bytes))
 }
 
 /// Packs JSON and numbers into the chunks of a GLB.
@@ -277,15 +281,6 @@ fn animation(clip: &Clip, about: &About, parts: &mut Parts) -> Option<Value> {
         "samplers": samplers,
         "extras": {"annotations": about.notes, "frames_per_second": rate.per_second()},
     }))
-}
-
-fn rest(skeleton: &Skeleton) -> ModelPose {
-    let joints = skeleton.joints();
-    let pose = Pose {
-        rotations: joints.iter().map(|joint| joint.rest).collect(),
-        translations: joints.iter().map(|joint| joint.offset).collect(),
-    };
-    ModelPose::of(skeleton, &pose)
 }
 
 fn inverse_binds(skeleton: &Skeleton, parts: &mut Parts) -> usize {

@@ -26,7 +26,7 @@ fn markers_faces_and_tiers_of_one_take_share_a_recording() {
         fs::write(inbox.join(name), text).expect("written");
     }
     let (clip, _) = crate::built_in_body().expect("a body");
-    let glb = gltf::write(&clip, &gltf::About::default());
+    let glb = gltf::write(&clip, &gltf::About::default()).expect("a GLB");
     fs::write(inbox.join("body.glb"), glb).expect("written");
     let path = folder.path().join("a.chereme");
     let mut corpus = Corpus::create(&path, "tester").expect("a corpus");
@@ -87,7 +87,7 @@ fn a_body_in_a_unit_that_makes_it_a_giant_is_a_person_with_a_finding() {
             metres_per_unit: scale,
             ..chereme_motion::Convention::MODEL
         };
-        let glb = gltf::write(&larger.clip(&clip), &gltf::About::default());
+        let glb = gltf::write(&larger.clip(&clip), &gltf::About::default()).expect("a GLB");
         fs::write(&path, glb).expect("written");
         let mut corpus =
             Corpus::create(&folder.path().join(format!("{name}.chereme")), "A").expect("a corpus");
@@ -151,7 +151,7 @@ fn an_import_of_tracks_of_every_kind_is_undone_and_done_again() {
     let (clip, _) = crate::built_in_body().expect("a body");
     fs::write(
         inbox.join("take.glb"),
-        gltf::write(&clip, &gltf::About::default()),
+        gltf::write(&clip, &gltf::About::default()).expect("a GLB"),
     )
     .expect("written");
     for (name, text) in [

@@ -187,7 +187,11 @@ fn an_unchanged_scene_is_read_again_as_the_options_say() {
     let folder = tempfile::tempdir().expect("a folder");
     let (clip, _) = crate::built_in_body().expect("a body");
     let path = folder.path().join("body.glb");
-    fs::write(&path, gltf::write(&clip, &gltf::About::default())).expect("written");
+    fs::write(
+        &path,
+        gltf::write(&clip, &gltf::About::default()).expect("in reach"),
+    )
+    .expect("written");
     let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
     take(&mut corpus, &path, &ImportOptions::default());
     let before = rows(&corpus).1;
