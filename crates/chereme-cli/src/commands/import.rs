@@ -143,6 +143,9 @@ enum OriginWord {
     Generated,
 }
 
+/// The lengths in metres that a unit of length may have: from a micrometre to a kilometre.
+const UNITS: std::ops::RangeInclusive<f64> = 1e-6..=1e3;
+
 fn unit(text: &str) -> Result<f64, String> {
     match text.to_lowercase().as_str() {
         "m" => Ok(1.0),
@@ -152,7 +155,10 @@ fn unit(text: &str) -> Result<f64, String> {
         "ft" | "feet" => Ok(0.3048),
         "acclaim" => Ok(0.0254 / 0.45),
         other => match other.parse::<f64>() {
-            Ok(metres) if metres.is_finite() && metres > 0.0 => Ok(metres),
+            Ok(metres) if UNITS.contains(&metres) => Ok(metres),
+            Ok(metres) if metres.is_finite() => {
+                Err("a unit of length has between 0.000001 and 1000 metres".to_owned())
+            }
             _ => {
                 Err("write m, cm, mm, inch, ft, acclaim, or how many metres one unit is".to_owned())
             }
@@ -447,6 +453,28 @@ fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_unit_of_length_is_a_name_or_a_sensible_number_of_metres() {
+        let form = "write m, cm, mm, inch, ft, acclaim, or how many metres one unit is";
+        let range = "a unit of length has between 0.000001 and 1000 metres";
+        for (text, want) in [
+            ("cm", Ok(0.01)),
+            ("0.02", Ok(0.02)),
+            ("1e-6", Ok(1e-6)),
+            ("1000", Ok(1000.0)),
+            ("1e300", Err(range)),
+            ("1001", Err(range)),
+            ("1e-7", Err(range)),
+            ("0", Err(range)),
+            ("-1", Err(range)),
+            ("1e999", Err(form)),
+            ("nan", Err(form)),
+            ("yard", Err(form)),
+        ] {
+            assert_eq!(unit(text), want.map_err(str::to_owned), "{text}");
+        }
+    }
 
     #[test]
     fn findings_with_one_remedy_are_listed_a_few_times() {

@@ -176,6 +176,10 @@ pub(in crate::commands) const WORDS: Words = Words {
             "écrivez un nombre entier comme 50, ou une fraction comme 30000/1001",
         ),
         (
+            "a unit of length has between 0.000001 and 1000 metres",
+            "une unité de longueur fait entre 0,000001 et 1000 mètres",
+        ),
+        (
             "write m, cm, mm, inch, ft, acclaim, or how many metres one unit is",
             "écrivez m, cm, mm, inch, ft, acclaim, ou combien de mètres fait une unité",
         ),
