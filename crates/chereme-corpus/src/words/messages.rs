@@ -16,6 +16,7 @@ use super::composing::COMPOSING;
 use super::count::counted_in_french;
 use super::documents::DOCUMENTS;
 use super::editing::EDITING;
+use super::filming::FILMING;
 use super::findings::FINDINGS;
 use super::importing::IMPORTING;
 use super::lines::{GENERAL, LINES};
@@ -507,6 +508,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .iter()
         .chain(MOVING)
         .chain(IMPORTING)
+        .chain(FILMING)
         .chain(EDITING)
         .chain(COMPOSING)
         .chain(CODING)

@@ -31,6 +31,7 @@ pub mod deeds;
 pub mod deletion;
 mod documents;
 mod editing;
+mod filming;
 mod findings;
 mod guides;
 pub mod history;
