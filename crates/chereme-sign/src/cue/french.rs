@@ -387,7 +387,12 @@ impl Rules {
     }
 
     fn begins_with_vowel(&self, word: &Word) -> bool {
-        if self.aspirated_h.contains(&word.text) {
+        let text = word.text.as_str();
+        let singular = text.strip_suffix(['s', 'x']).unwrap_or(text);
+        if [text, singular]
+            .iter()
+            .any(|it| self.aspirated_h.contains(*it))
+        {
             return false;
         }
         let mut letters = word.text.chars();
