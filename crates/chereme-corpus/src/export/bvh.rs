@@ -23,7 +23,7 @@ pub(crate) fn late_start(connection: &Connection, stretch: &Stretch) -> Result<O
         return Ok(None);
     }
     Ok(Some(format!(
-        "a BVH file does not say that its movement begins {} s after its recording; import it with --offset, or the annotations are beside it",
+        "a BVH file does not say that its movement begins {} s after its recording; state that offset when you import it, or the annotations are beside it",
         offset as f64 / 1e6
     )))
 }

@@ -68,7 +68,7 @@ pub(super) fn describe(job: &mut Job<'_>, recording: i64, report: &mut FileRepor
     } else if options.handedness.is_some() {
         report.findings.push(ReportFinding::warning(
             "its recording has no signer, so no signer has the dominant hand now",
-            "name the signer, too, with --signer",
+            Remedy::command("name the signer, too, with --signer"),
         ));
     }
     let changed = report.findings[known..]

@@ -359,7 +359,7 @@ pub(super) fn copied(path: &Path) -> Option<Error> {
     if !marks.iter().all(|mark| exported.join(mark).is_file()) {
         return None;
     }
-    let why = "it is a copy of a part of corpus.chereme, in a folder that `chereme export` wrote";
+    let why = "it is a copy of a part of corpus.chereme, in the folder of an export";
     Some(
         Error::wrong(why)
             .at(path.display().to_string())

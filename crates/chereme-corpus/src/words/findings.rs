@@ -281,8 +281,8 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "{text} à {time} sur {name} en chevauche d’autres ; dans le TextGrid elle commence à {start}",
     ),
     (
-        "it is a copy of a part of corpus.chereme, in a folder that `chereme export` wrote",
-        "c’est la copie d’une partie de corpus.chereme, dans un dossier que `chereme export` a écrit",
+        "it is a copy of a part of corpus.chereme, in the folder of an export",
+        "c’est la copie d’une partie de corpus.chereme, dans le dossier d’une exportation",
     ),
     (
         "open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`",

@@ -151,8 +151,8 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "le fichier ne contient que des marqueurs, sans les courbes {names} ; .curves.csv les contient",
     ),
     (
-        "a BVH file does not say that its movement begins {start} s after its recording; import it with --offset, or the annotations are beside it",
-        "un fichier BVH ne dit pas que son mouvement commence {start} s après son enregistrement ; importez-le avec --offset, sinon les annotations sont à côté",
+        "a BVH file does not say that its movement begins {start} s after its recording; state that offset when you import it, or the annotations are beside it",
+        "un fichier BVH ne dit pas que son mouvement commence {start} s après son enregistrement ; indiquez ce décalage à l’importation, sinon les annotations sont à côté",
     ),
     (
         "the file holds all of the recording {name}",
