@@ -73,7 +73,7 @@ impl Output {
     /// Writes a line for people without a look into the table of messages, as for rows of a table.
     fn line_as_is(&mut self, text: &str) -> Result<()> {
         if !self.json {
-            quiet(writeln!(self.text, "{text}"))?;
+            quiet(writeln!(self.text, "{}", table::shown(text, true)))?;
         }
         Ok(())
     }
@@ -199,7 +199,7 @@ fn quiet(done: io::Result<()>) -> Result<()> {
 
 /// Writes a line on standard error.
 pub(crate) fn write_to_stderr(text: &str) {
-    let _ = writeln!(io::stderr(), "{text}");
+    let _ = writeln!(io::stderr(), "{}", table::shown(text, true));
 }
 
 /// Reports wrong usage, or prints the help.

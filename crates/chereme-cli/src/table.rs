@@ -1,5 +1,7 @@
 //! Tables for people, as wide as the terminal.
 
+use std::borrow::Cow;
+
 /// The number of blanks between two columns.
 const GAP: usize = 2;
 /// The least width of a shortened column.
@@ -17,10 +19,34 @@ pub(crate) struct Table {
     pub(crate) left_out: Vec<String>,
 }
 
+/// Returns a text as a terminal may show it: control characters, which a terminal obeys, and marks that turn the order of
+/// letters around are escaped, such as `\u{1b}`. Line ends and tabs stay if `lines` is set.
+pub(crate) fn shown(text: &str, lines: bool) -> Cow<'_, str> {
+    let obeyed = |letter: char| match letter {
+        '\n' | '\t' => !lines,
+        '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}' => true,
+        _ => letter.is_control(),
+    };
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut escaped = String::with_capacity(text.len() + 8);
+    for letter in text.chars() {
+        match obeyed(letter) {
+            true => escaped.extend(letter.escape_default()),
+            false => escaped.push(letter),
+        }
+    }
+    Cow::Owned(escaped)
+}
+
 /// Returns a table: columns as wide as their widest cell, numbers to the right. With a width the widest columns are
 /// shortened, with an ellipsis, until the lines fit; if that is not enough, columns without any cell are left out, then
 /// the last ones.
 pub(crate) fn table(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Table {
+    let on_a_line =
+        |row: &Vec<String>| row.iter().map(|it| shown(it, false).into_owned()).collect();
+    let rows: &[Vec<String>] = &rows.iter().map(on_a_line).collect::<Vec<_>>();
     let all: Vec<ColumnShape> = (0..header.len())
         .map(|column| ColumnShape::of(header[column], rows, column))
         .collect();
@@ -145,6 +171,23 @@ mod tests {
 
     fn lines(header: &[&str], rows: &[Vec<String>], width: Option<usize>) -> Vec<String> {
         table(header, rows, width).lines
+    }
+
+    #[test]
+    fn characters_that_a_terminal_obeys_are_escaped() {
+        let cases = [
+            ("plain, à é \u{e002}", "plain, à é \u{e002}"),
+            ("a\u{1b}[31mb", "a\\u{1b}[31mb"),
+            ("\u{9b}2J", "\\u{9b}2J"),
+            ("x\u{202e}y", "x\\u{202e}y"),
+            ("one\r", "one\\r"),
+        ];
+        for (text, expected) in cases {
+            assert_eq!(shown(text, true), expected);
+        }
+        assert_eq!(shown("two\nlines", true), "two\nlines");
+        let rows = vec![vec!["two\nlines".to_owned()]];
+        assert_eq!(table(&["name"], &rows, None).lines[2], "two\\nlines");
     }
 
     #[test]
