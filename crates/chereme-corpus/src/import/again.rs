@@ -1,4 +1,4 @@
-//! Describes the recording of a file anew that is in the corpus already, and applies another reading to its movement.
+//! Applies the options of an import to a file that is in the corpus already: to its recording, and to its movement.
 
 use std::collections::BTreeMap;
 
@@ -176,8 +176,8 @@ pub(super) fn groups_json(groups: &BTreeMap<ChannelGroup, Vec<usize>>) -> String
     json!(named).to_string()
 }
 
-/// Returns the options for reading a file again: what the caller states now, otherwise what holds already unless it is
-/// the reader's `guess`.
+/// Returns the options for reading a file again. An option that the caller leaves out has the value that holds already,
+/// unless that is the reader's `guess`.
 pub(super) fn options_again(
     options: &ImportOptions,
     was: &MotionTrack,

@@ -193,7 +193,7 @@ struct Work<'w> {
     mine: &'w Transcript,
     theirs: &'w Transcript,
     own: Matching,
-    /// What the base and the other side share.
+    /// The annotations that the base and the other side share.
     other: Matching,
     names: BTreeMap<String, String>,
     /// The ids in `mine` of the annotations that come from the base.

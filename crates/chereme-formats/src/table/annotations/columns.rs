@@ -270,8 +270,8 @@ fn usual(rows: &[&[String]], column: usize) -> Option<Form> {
     (alike && 2 * found.len() >= rows.len()).then_some(first)
 }
 
-/// Returns the beginning of a run of forms that holds begin, end and perhaps duration, each in the same forms. `to_end`
-/// says that no column follows the run, so that its last one holds the values, all of which are numbers.
+/// Returns the beginning of a run of forms that holds begin, end and perhaps duration, each in the same forms. With
+/// `to_end` no column follows the run: its last one holds the values, and all of these are numbers.
 fn repeated(run: &[Form], to_end: bool) -> Option<&[Form]> {
     let run = &run[..run.len().saturating_sub(usize::from(to_end))];
     let fits = |&(each, times): &(usize, usize)| {
