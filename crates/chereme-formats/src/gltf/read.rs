@@ -235,6 +235,9 @@ impl Rig {
                 }
             }
         }
+        if let Some(at) = below_itself(nodes, &parents) {
+            return Err(Error::element("nodes", at, "is below itself"));
+        }
         let kept = kept(document, &parents)?;
         let roots: Vec<usize> = (0..nodes.len())
             .filter(|at| kept[*at] && parents[*at].is_none())
@@ -290,6 +293,18 @@ impl Rig {
         }
         Ok(rig)
     }
+}
+
+/// Returns a node that no root leads to, because it is an ancestor of itself.
+fn below_itself(nodes: &[Node], parents: &[Option<usize>]) -> Option<usize> {
+    let mut reached = vec![false; nodes.len()];
+    let roots = (0..nodes.len()).filter(|at| parents[*at].is_none());
+    let mut open: Vec<usize> = roots.collect();
+    while let Some(at) = open.pop() {
+        reached[at] = true;
+        open.extend(&nodes[at].children);
+    }
+    reached.iter().position(|reached| !reached)
 }
 
 /// Returns a node's original name, undoing an exporter's changes.

@@ -238,7 +238,11 @@ fn documents_that_mean_nothing_are_refused() {
     );
     let loops =
         json!({"nodes": [{"children": [1]}, {"children": [0]}], "skins": [{"joints": [0]}]});
-    assert!(parse(&document(loops, &[])).is_err());
+    let own_child = json!({"nodes": [{"children": [0]}, {}], "skins": [{"joints": [1]}]});
+    for cycle in [loops, own_child] {
+        let error = parse(&document(cycle, &[])).expect_err("a cycle");
+        assert!(error.to_string().contains("is below itself"), "{error}");
+    }
     let far = json!({"buffers": [{"byteLength": 1, "uri": "../secret.bin"}]});
     assert!(matches!(
         parse(&document(far, &[])),
