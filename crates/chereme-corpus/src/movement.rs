@@ -12,6 +12,7 @@ use chereme_motion::column::{Column as Numbers, Numbers as Form};
 use chereme_motion::ends::{Ends, OddFrames};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Clip, Convention, Joint, Rate, Side, Skeleton, Span};
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
@@ -207,7 +208,9 @@ pub(crate) struct MotionTrack {
 pub(crate) fn no_movement(recording: &str) -> Error {
     Error::wrong(format!("the recording {recording:?} holds no movement"))
         .at(recording)
-        .advise("import the motion file of the same name")
+        .advise(Remedy::command(
+            "import the motion file of the same name; movement is made from markers by `chereme fit CORPUS RECORDING`",
+        ))
 }
 
 impl MotionTrack {

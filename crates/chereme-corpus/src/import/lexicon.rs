@@ -90,8 +90,14 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
 }
 
 fn wrong(error: &TableError) -> Error {
-    Error::wrong(error.to_string())
-        .advise("a lexicon is a table with a header row and a column of glosses")
+    let of_frames =
+        matches!(error, TableError::Missing { found, .. } if found.starts_with("frame, time_s"));
+    Error::wrong(error.to_string()).advise(match of_frames {
+        true => {
+            "the table has a row for each frame, as export writes it; import the recording's .bvh, .c3d or .trc instead"
+        }
+        false => "a lexicon is a table with a header row and a column of glosses",
+    })
 }
 
 /// Records which entries of the mapping name a column of the table, and returns whether any does.

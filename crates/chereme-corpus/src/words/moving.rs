@@ -370,8 +370,8 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "l’enregistrement {name} ne contient pas de mouvement",
     ),
     (
-        "import the motion file of the same name",
-        "importez le fichier de mouvement du même nom",
+        "import the motion file of the same name; movement is made from markers by `chereme fit CORPUS RECORDING`",
+        "importez le fichier de mouvement du même nom ; `chereme fit CORPUS ENREGISTREMENT` fait un mouvement de marqueurs",
     ),
     ("it holds no movement", "il ne contient pas de mouvement"),
     ("it is too long", "il est trop long"),

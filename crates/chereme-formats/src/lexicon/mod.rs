@@ -29,7 +29,7 @@ pub use columns::{Column, Meaning};
 use crate::finding::Finding;
 use crate::hns::{holds_symbols, mended_finding};
 use crate::roles::{Hands, Mapping};
-use crate::table::{Cells, Row, TableError};
+use crate::table::{Cells, Row, TableError, listed};
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{in_plain_symbols, mended};
 use chereme_sign::text::{edit_distance, fold};
@@ -168,7 +168,7 @@ fn interpret(
         .iter()
         .position(|it| matches!(it.meaning, Meaning::Gloss { .. }));
     let gloss = gloss.ok_or_else(|| TableError::Missing {
-        found: table.header.join(", "),
+        found: listed(&table.header),
         needed: "a gloss",
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
     })?;

@@ -79,6 +79,18 @@ pub enum TableError {
     },
 }
 
+/// The most columns that an error lists.
+const MOST_LISTED: usize = 12;
+
+/// Returns the names of columns separated by commas; of many columns the first ones, and the number of the others.
+pub(crate) fn listed(columns: &[String]) -> String {
+    let (first, others) = columns.split_at(columns.len().min(MOST_LISTED));
+    match others.len() {
+        0 => first.join(", "),
+        more => format!("{} and {more} more", first.join(", ")),
+    }
+}
+
 /// A row with the line it starts on.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Row {

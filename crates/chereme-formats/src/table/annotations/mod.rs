@@ -15,7 +15,7 @@ mod moment;
 pub use export::{is_export, transcript, write};
 pub use moment::{Moment, MomentError, TimeUnit};
 
-use super::cells::{Cells, Row as RawRow, TableError};
+use super::cells::{Cells, Row as RawRow, TableError, listed};
 use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_motion::Instant;
@@ -128,7 +128,7 @@ pub fn read(
     };
     if columns.at[1].is_none() && columns.at[6].is_none() && columns.tiers.is_empty() {
         return Err(TableError::Missing {
-            found: table.header.join(", "),
+            found: listed(&table.header),
             needed: "tier or id",
             remedy: "name the columns recording, tier, start, end, value, action, id",
         });
