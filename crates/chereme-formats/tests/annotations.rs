@@ -325,7 +325,7 @@ fn document(tiers: Vec<(&str, Vec<String>)>, from: i64, length: i64) -> Transcri
 }
 
 /// The tiers of a document: name, start and end in milliseconds, value.
-fn told(document: &Transcript) -> Vec<(String, i64, i64, String)> {
+fn flat(document: &Transcript) -> Vec<(String, i64, i64, String)> {
     let all = document.tiers.iter().flat_map(|tier| {
         tier.annotations.iter().map(|it| {
             let (start, end) = (it.span.start().millis(), it.span.end().millis());
@@ -350,7 +350,7 @@ proptest! {
         let text = write(&whole);
         prop_assert!(is_export(text.as_bytes()), "{}", text);
         let (found, findings) = transcript(text.as_bytes()).expect("what was written");
-        prop_assert_eq!(told(&found), told(&whole), "{}", text);
+        prop_assert_eq!(flat(&found), flat(&whole), "{}", text);
         prop_assert!(findings.iter().all(|it| it.message.contains("no titles") || it.message.contains("lines")), "{:?}", findings);
     }
 }
@@ -362,7 +362,7 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
         let whole = document(tiers.clone(), from, length);
         let text = write(&whole);
         let (found, _) = transcript(text.as_bytes()).expect("what was written");
-        assert_eq!(told(&found), told(&whole), "{text}");
+        assert_eq!(flat(&found), flat(&whole), "{text}");
     }
     let text = write(&document(tiers.clone(), -500, 1500));
     assert!(
@@ -370,7 +370,7 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
         "{text}"
     );
     let whole = document(tiers, 500, 1000);
-    let all = told(&whole);
+    let all = flat(&whole);
     let good = write(&whole);
     for (from, to) in [
         ("1.500\t00:00:02", "n/a\t00:00:02"),
@@ -387,7 +387,7 @@ fn negative_times_read_back_and_unreadable_ones_are_named() {
         let (found, findings) = transcript(damaged.as_bytes()).expect("a table");
         let mut rest = all.clone();
         rest.remove(at - 1);
-        assert_eq!(told(&found), rest, "{damaged}");
+        assert_eq!(flat(&found), rest, "{damaged}");
         let named = findings
             .iter()
             .any(|it| it.line == Some(at as u64) && it.message.contains("a row was left out"));
