@@ -14,8 +14,7 @@ pub(in crate::transcribe) type Stated = (FeatureKind, WordsAndSymbols);
 
 /// Replaces the features and stages of actions in a transcription, `from` the inferred actions `to` others. `before` and
 /// `after` are the deviations (m) of both from the observed movement: they become the residuals of the features that
-/// change. A finding names both movements. `several` is the number
-/// of times that "several times" adds to the first one.
+/// change. A finding names both movements. `several` is the number of times that "several times" adds to the first one.
 pub(in crate::transcribe) fn replace(
     found: &mut Transcription,
     [from, to]: [&[Motion]; 2],
@@ -187,12 +186,16 @@ fn state(motion: &Motion, all: &mut Vec<Stated>, manner: &mut Manner, several: f
         }
         MotionKind::Repeated { motion, repetition } => {
             state(motion, all, manner, several);
-            let times = match repetition.repeat {
-                Repeat::FromStartSeveral | Repeat::ContinueSeveral => 1 + several as usize,
-                _ => 2,
+            let more = |repeat: Repeat| match repeat {
+                Repeat::FromStartSeveral | Repeat::ContinueSeveral => several as usize,
+                _ => 1,
             };
-            let repetition = words::repetition(times, repetition.repeat);
-            all.push((FeatureKind::Repetition, repetition));
+            let times = 1 + more(repetition.repeat) + repetition.second.map_or(0, more);
+            let mut stated = words::repetition(times, repetition.repeat);
+            if let Some(second) = repetition.second {
+                stated.text += &words::repetition(times, second).text;
+            }
+            all.push((FeatureKind::Repetition, stated));
         }
         MotionKind::Split(..)
         | MotionKind::Cross { .. }

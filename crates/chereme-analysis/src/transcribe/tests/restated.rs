@@ -1,6 +1,6 @@
 //! Compares the values that notation states about an act with its recorded features.
 
-use chereme_sign::hamnosys::{Sign, from_names, parse};
+use chereme_sign::hamnosys::{Motion, Sign, from_names, parse};
 
 use super::movements::{captured, one_hand, places, two_hands};
 use super::*;
@@ -43,19 +43,37 @@ fn notation_states_the_features_that_are_recorded() {
     assert!(compared > 100, "{compared}");
 }
 
+/// Returns the actions that symbols without their first three letters mean.
+fn actions(names: &str) -> Vec<Motion> {
+    let names = names.split(' ').map(|it| format!("ham{it}"));
+    let names: Vec<String> = names.collect();
+    let text = from_names(names.iter().map(String::as_str)).expect("symbols");
+    let mut sign = parse(&text).expect("a movement").sign;
+    sign.parts.swap_remove(0).actions
+}
+
+#[test]
+fn every_mark_of_a_repetition_adds_to_its_times() {
+    for (movement, times, symbols) in [
+        ("moveo repeatfromstart", "2 times", 1),
+        ("moveo repeatfromstartseveral", "3 times", 1),
+        ("moveo repeatfromstart repeatfromstart", "3 times", 2),
+        (
+            "moveo repeatfromstartseveral repeatfromstartseveral",
+            "5 times",
+            2,
+        ),
+    ] {
+        let stated = stated(&actions(movement)[0], 2.0);
+        let repetition = stated.iter().find(|it| it.0 == FeatureKind::Repetition);
+        let (_, repetition) = repetition.expect("a repetition");
+        assert_eq!(repetition.words, times, "{movement}");
+        assert_eq!(repetition.text.chars().count(), symbols, "{movement}");
+    }
+}
+
 #[test]
 fn features_follow_actions_that_are_replaced() {
-    let actions = |names: &str| {
-        let names = names.split(' ').map(|it| format!("ham{it}"));
-        let names: Vec<String> = names.collect();
-        let text = from_names(names.iter().map(String::as_str)).expect("symbols");
-        parse(&text)
-            .expect("a movement")
-            .sign
-            .parts
-            .swap_remove(0)
-            .actions
-    };
     let [from, to] = [
         "moveo smallmod chest touch moved repeatfromstart",
         "moveo fast moved repeatfromstartseveral",
