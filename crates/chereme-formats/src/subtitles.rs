@@ -53,7 +53,7 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
     })?;
     let is_vtt = text.trim_start_matches('\u{feff}').starts_with("WEBVTT");
     let mut cues: Vec<(Span, String, u64)> = Vec::new();
-    // In SubRip, text after a blank line goes on with the cue, as other programs read it.
+    // SubRip states no other place for text after a blank line than the cue before it.
     let mut follows_cue = false;
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
@@ -90,8 +90,10 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
                     findings.add("blank lines within cues", || {
                         Finding::note(line, format!("the text {:?} stands after a blank line; it was added to the cue before it", text.trim()))
                     });
-                    let between = if said.is_empty() { "" } else { "\n" };
-                    *said = format!("{said}{between}{}", text.trim_end());
+                    if !said.is_empty() {
+                        said.push('\n');
+                    }
+                    said.push_str(text.trim_end());
                 }
                 None => findings.add("lines outside cues", || {
                     Finding::warning(
