@@ -18,7 +18,8 @@ impl Corpus {
     /// Applies the changes in a table (CSV or TSV) of annotations, as one operation.
     ///
     /// `name` is the name of the table in errors. Rows without a recording apply to `recording`, or to the only one of
-    /// the corpus. An annotation named by its id must be in the recording and on the tier that its row names. The format is that of [`chereme_formats::table::annotations::read`].
+    /// the corpus. An annotation named by its id must be in the recording and on the tier that its row names. The format
+    /// is that of [`chereme_formats::table::annotations::read`].
     ///
     /// # Errors
     /// [`Error::Several`] with every row that cannot be carried out; nothing is changed then.

@@ -45,8 +45,7 @@ pub(super) fn describe(job: &mut Job<'_>, recording: i64, report: &mut FileRepor
     after.licence = options.licence.clone().or(after.licence);
     let known = report.findings.len();
     let or_nothing = |text: &Option<String>| text.as_deref().unwrap_or(NOTHING).to_owned();
-    let note = |text: String| report.findings.push(ReportFinding::note(text));
-    let mut note = note;
+    let mut note = |text: String| report.findings.push(ReportFinding::note(text));
     if after.signer_id != before.signer_id {
         let [now, then] = [&after, &before].map(|row| or_nothing(&row.signer));
         note(format!("signer: {now} (before: {then})"));
@@ -159,7 +158,7 @@ pub(super) fn own_track(
     }
     report.findings.push(ReportFinding::warning(
         format!(
-            "it was not read again: its recording has {} skeletons of such files, which leaves open which one is of this file",
+            "it was not read again: its recording has {} skeletons from such files, and nothing shows which one is this file's",
             found.len()
         ),
         "to read it in another manner, import a copy of it under another name",

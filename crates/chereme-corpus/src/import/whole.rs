@@ -61,9 +61,9 @@ fn within(largest: u64, stream: impl Read, path: &Path) -> Result<Vec<u8>> {
 }
 
 fn too_large(path: &Path, message: String) -> Error {
-    Error::wrong(message)
-        .at(path.display().to_string())
-        .advise("an annotation file, lexicon or inventory has at most 512 MiB")
+    Error::wrong(message).at(path.display().to_string()).advise(
+        "a file that is read whole has at most 512 MiB; a BVH file that is named may be larger",
+    )
 }
 
 #[cfg(test)]

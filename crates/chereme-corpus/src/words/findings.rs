@@ -241,7 +241,7 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "déplacez ses pistes avec `chereme track` ; ou annulez son premier import avec `chereme undo`, et importez-le de nouveau",
     ),
     (
-        "it was not read again: its recording has {n} skeletons of such files, which leaves open which one is of this file",
+        "it was not read again: its recording has {n} skeletons from such files, and nothing shows which one is this file's",
         "il n’a pas été relu : son enregistrement a {n} squelettes de tels fichiers, et on ne sait pas lequel est le sien",
     ),
     (
@@ -273,8 +273,8 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "facteur des positions de la racine : {now} (avant : {then})",
     ),
     (
-        "{n} annotations without text are not in the TextGrid, where an empty interval is a gap; an .eaf keeps them",
-        "{n} annotations sans texte ne sont pas dans le TextGrid, où un intervalle vide est un trou ; un .eaf les garde",
+        "annotations without text are not in the TextGrid, where an empty interval is a gap; an .eaf keeps them: {n}",
+        "des annotations sans texte ne sont pas dans le TextGrid, où un intervalle vide est un trou ; un .eaf les garde : {n}",
     ),
     (
         "{text} at {time} on {name} overlaps others; in the TextGrid it starts at {start}",

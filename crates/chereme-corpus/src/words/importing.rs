@@ -429,8 +429,8 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "un lexique est une table avec une ligne d’en-tête et une colonne de gloses",
     ),
     (
-        "an annotation file, lexicon or inventory has at most 512 MiB",
-        "un fichier d’annotations, un lexique ou un inventaire a au plus 512 Mio",
+        "a file that is read whole has at most 512 MiB; a BVH file that is named may be larger",
+        "un fichier lu en entier a au plus 512 Mio ; un fichier BVH donné par son nom peut être plus grand",
     ),
     (
         "the mapping names what no tier or column of these files is called: {names}",

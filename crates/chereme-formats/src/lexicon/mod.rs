@@ -4,8 +4,8 @@
 //! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone; `-`
 //! and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
 //! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, JSON
-//! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`] reproduces the
-//! table.
+//! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`]
+//! reproduces the table.
 //!
 //! ```
 //! use chereme_formats::lexicon;

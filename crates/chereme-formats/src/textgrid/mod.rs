@@ -182,8 +182,8 @@ pub fn write(transcript: &Transcript, form: Form, end: Instant) -> (String, Vec<
         findings.push(Finding::warning(
             None,
             format!(
-                "{empty} annotations without text are not in the TextGrid, where an empty interval is a gap; \
-                 an .eaf keeps them"
+                "annotations without text are not in the TextGrid, where an empty interval is a gap; \
+                 an .eaf keeps them: {empty}"
             ),
         ));
     }

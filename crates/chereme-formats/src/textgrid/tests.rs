@@ -196,13 +196,13 @@ fn annotations_that_a_text_grid_cuts_or_leaves_out_are_reported() {
         (
             &[(0, 1, ""), (1, 2, "A"), (2, 3, "")],
             &["1-2 A"],
-            vec![format!("2 {empty}")],
+            vec![format!("{empty}: 2")],
         ),
         // An empty annotation takes no room from others.
         (
             &[(0, 2, ""), (1, 3, "B")],
             &["1-3 B"],
-            vec![format!("1 {empty}")],
+            vec![format!("{empty}: 1")],
         ),
     ] {
         let transcript = Transcript {
