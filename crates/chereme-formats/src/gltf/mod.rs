@@ -7,9 +7,11 @@
 //! Khronos Group.
 
 mod accessor;
+mod container;
 mod error;
 mod model;
 mod read;
+mod rig;
 mod sample;
 #[cfg(test)]
 mod tests;

@@ -296,16 +296,16 @@ fn base64_is_decoded_as_in_its_standard() {
         ("Zm9v YmE=", b"fooba"),
         ("Zm9vYmFy", b"foobar"),
     ] {
-        assert_eq!(read::base64(text).as_deref(), Some(bytes), "{text}");
+        assert_eq!(container::base64(text).as_deref(), Some(bytes), "{text}");
     }
     let letters: String = ('A'..='Z').chain('a'..='z').chain('0'..='9').collect();
     for (last, letters) in [("+/", &letters), ("-_", &letters)] {
-        let bytes = read::base64(&format!("{letters}{last}")).expect("digits");
+        let bytes = container::base64(&format!("{letters}{last}")).expect("digits");
         let bits: String = bytes.iter().map(|byte| format!("{byte:08b}")).collect();
         let digits: String = (0..64).map(|digit| format!("{digit:06b}")).collect();
         assert_eq!(bits, digits);
     }
-    assert_eq!(read::base64("Zm9v!"), None);
+    assert_eq!(container::base64("Zm9v!"), None);
 }
 
 #[test]

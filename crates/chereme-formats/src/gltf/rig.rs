@@ -1,0 +1,205 @@
+//! The skeleton of a glTF document.
+
+use chereme_motion::Joint;
+use chereme_motion::glam::{DMat4, DQuat, DVec3};
+
+use super::error::Error;
+use super::model::{Document, Node};
+use super::sample::turn;
+use crate::finding::Finding;
+use crate::tally::Findings;
+use crate::tracks::unique;
+
+/// Largest difference of scales, from 1 or from each other, that count as equal.
+pub(super) const SAME_SCALE: f64 = 1e-4;
+/// The most nodes of a file.
+const MOST_NODES: usize = 20_000;
+
+/// The nodes that are joints, parents before children, with scales folded into offsets.
+pub(super) struct Rig {
+    /// The node of each joint; `None` for a root that joins several trees.
+    pub(super) nodes: Vec<Option<usize>>,
+    pub(super) joints: Vec<Joint>,
+    /// The scale of each joint's translations.
+    pub(super) scales: Vec<f64>,
+}
+
+/// The translation, rotation and scale of a node.
+fn transform(node: &Node) -> (DVec3, DQuat, DVec3) {
+    if let Some(matrix) = &node.matrix {
+        let (scale, rotation, translation) =
+            DMat4::from_cols_array(matrix).to_scale_rotation_translation();
+        let sound = scale.is_finite() && rotation.is_finite() && translation.is_finite();
+        if sound {
+            return (translation, turn(&rotation.to_array()), scale);
+        }
+    }
+    let translation = DVec3::from_array(node.translation.unwrap_or_default());
+    let rotation = node.rotation.map_or(DQuat::IDENTITY, |it| turn(&it));
+    let scale = DVec3::from_array(node.scale.unwrap_or([1.0; 3]));
+    (translation, rotation, scale)
+}
+
+impl Rig {
+    /// Returns the joints of skins, animated nodes and all nodes above them.
+    ///
+    /// # Errors
+    /// [`Error`] if a node is missing, has two parents or is below itself, or no node is a joint.
+    pub(super) fn of(document: &Document, findings: &mut Findings) -> Result<Self, Error> {
+        let nodes = &document.nodes;
+        if nodes.len() > MOST_NODES {
+            return Err(Error::Skeleton(format!(
+                "{} nodes are too many",
+                nodes.len()
+            )));
+        }
+        let mut parents = vec![None; nodes.len()];
+        for (at, node) in nodes.iter().enumerate() {
+            for child in &node.children {
+                let fault = |problem: &str| Error::element("nodes", at, problem);
+                let parent = parents
+                    .get_mut(*child)
+                    .ok_or_else(|| fault("has a child that does not exist"))?;
+                if parent.replace(at).is_some() {
+                    return Err(fault("shares a child with another node"));
+                }
+            }
+        }
+        if let Some(at) = below_itself(nodes, &parents) {
+            return Err(Error::element("nodes", at, "is below itself"));
+        }
+        let kept = kept(document, &parents)?;
+        let roots: Vec<usize> = (0..nodes.len())
+            .filter(|at| kept[*at] && parents[*at].is_none())
+            .collect();
+        if roots.is_empty() {
+            return Err(Error::NoSkeleton);
+        }
+        let mut rig = Self {
+            nodes: Vec::new(),
+            joints: Vec::new(),
+            scales: Vec::new(),
+        };
+        if roots.len() > 1 {
+            rig.nodes.push(None);
+            rig.joints.push(Joint::new("scene", None, DVec3::ZERO));
+            rig.scales.push(1.0);
+            findings.push(Finding::note(
+                None,
+                format!("{} trees of joints were put below one root", roots.len()),
+            ));
+        }
+        let top = (roots.len() > 1).then_some(0);
+        let mut open: Vec<(usize, Option<usize>, f64)> =
+            roots.iter().rev().map(|root| (*root, top, 1.0)).collect();
+        while let Some((at, parent, above)) = open.pop() {
+            let (translation, rotation, scale) = transform(&nodes[at]);
+            let offset = translation * above;
+            if !offset.is_finite() || rig.joints.len() > nodes.len() {
+                return Err(Error::element("nodes", at, "has a place that is no number"));
+            }
+            rig.joints.push(Joint {
+                rest: rotation,
+                ..Joint::new(name(&nodes[at], at), parent, offset)
+            });
+            rig.nodes.push(Some(at));
+            rig.scales.push(above);
+            let joint = rig.joints.len() - 1;
+            let below = above * uniform(scale, at, &nodes[at], findings);
+            let children = nodes[at]
+                .children
+                .iter()
+                .rev()
+                .filter(|child| kept[**child]);
+            open.extend(children.map(|child| (*child, Some(joint), below)));
+        }
+        let names: Vec<String> = rig.joints.iter().map(|joint| joint.name.clone()).collect();
+        for (joint, name) in rig
+            .joints
+            .iter_mut()
+            .zip(unique(names.iter().map(String::as_str), "joint"))
+        {
+            joint.name = name;
+        }
+        Ok(rig)
+    }
+}
+
+/// Returns a node that no root leads to, because it is an ancestor of itself.
+fn below_itself(nodes: &[Node], parents: &[Option<usize>]) -> Option<usize> {
+    let mut reached = vec![false; nodes.len()];
+    let roots = (0..nodes.len()).filter(|at| parents[*at].is_none());
+    let mut open: Vec<usize> = roots.collect();
+    while let Some(at) = open.pop() {
+        reached[at] = true;
+        open.extend(&nodes[at].children);
+    }
+    reached.iter().position(|reached| !reached)
+}
+
+/// Returns a node's original name, undoing an exporter's changes.
+fn name(node: &Node, at: usize) -> String {
+    let original = node.extras.get("name").and_then(serde_json::Value::as_str);
+    let name = original.or(node.name.as_deref()).unwrap_or_default();
+    if name.is_empty() {
+        format!("node {at}")
+    } else {
+        name.to_owned()
+    }
+}
+
+/// Returns a scale as one number, and reports a scale that differs between axes.
+fn uniform(scale: DVec3, at: usize, node: &Node, findings: &mut Findings) -> f64 {
+    let mean = (scale.x.abs() + scale.y.abs() + scale.z.abs()) / 3.0;
+    let even = (scale.abs() - DVec3::splat(mean)).abs().max_element() <= SAME_SCALE * mean.max(1.0);
+    if !even || scale.min_element() < 0.0 || !mean.is_finite() {
+        let name = name(node, at);
+        findings.add("scales that are not even", || {
+            Finding::warning(
+                None,
+                format!("the node {name:?} is stretched or mirrored; its mean scale is taken"),
+            )
+        });
+    }
+    let near_one = (mean - 1.0).abs() <= SAME_SCALE;
+    if near_one || !mean.is_finite() {
+        1.0
+    } else {
+        mean
+    }
+}
+
+/// Marks joints of skins, animated nodes, and all nodes above them.
+fn kept(document: &Document, parents: &[Option<usize>]) -> Result<Vec<bool>, Error> {
+    let mut kept = vec![false; parents.len()];
+    let of_skins = document
+        .skins
+        .iter()
+        .flat_map(|skin| skin.joints.iter().copied());
+    let animated = document
+        .animations
+        .iter()
+        .flat_map(|animation| &animation.channels);
+    let animated = animated
+        .filter(|channel| channel.target.path != "weights")
+        .filter_map(|channel| channel.target.node);
+    for node in of_skins.chain(animated) {
+        let mut at = Some(node);
+        let mut steps = 0;
+        while let Some(node) = at {
+            let mark = kept
+                .get_mut(node)
+                .ok_or_else(|| Error::element("nodes", node, "does not exist"))?;
+            steps += 1;
+            if steps > parents.len() {
+                return Err(Error::element("nodes", node, "is its own ancestor"));
+            }
+            if *mark && steps > 1 {
+                break;
+            }
+            *mark = true;
+            at = parents[node];
+        }
+    }
+    Ok(kept)
+}
