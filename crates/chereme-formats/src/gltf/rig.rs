@@ -98,14 +98,15 @@ impl Rig {
             if !offset.is_finite() || rig.joints.len() > nodes.len() {
                 return Err(Error::element("nodes", at, "has a place that is no number"));
             }
+            let below = above * uniform(scale, at, &nodes[at], findings);
             rig.joints.push(Joint {
                 rest: rotation,
+                tip: tip(nodes, at, &kept).map(|tip| tip * below),
                 ..Joint::new(name(&nodes[at], at), parent, offset)
             });
             rig.nodes.push(Some(at));
             rig.scales.push(above);
             let joint = rig.joints.len() - 1;
-            let below = above * uniform(scale, at, &nodes[at], findings);
             let children = nodes[at]
                 .children
                 .iter()
@@ -146,6 +147,28 @@ fn name(node: &Node, at: usize) -> String {
     } else {
         name.to_owned()
     }
+}
+
+/// Returns the end of a bone without a further joint: the one that [`super::write()`] wrote, or the only child if other
+/// programs name it as an end.
+fn tip(nodes: &[Node], at: usize, kept: &[bool]) -> Option<DVec3> {
+    let node = &nodes[at];
+    let written = node.extras.get("tip").and_then(|tip| {
+        let number = |at: usize| tip.get(at)?.as_f64();
+        Some(DVec3::new(number(0)?, number(1)?, number(2)?))
+    });
+    let child = match *node.children.as_slice() {
+        [child] if !kept[child] && is_end(&nodes[child]) => Some(transform(&nodes[child]).0),
+        _ => None,
+    };
+    written.or(child).filter(|tip| tip.is_finite())
+}
+
+/// Returns whether a node only marks the end of a bone: `Head_end`, `LeftHandIndex4_end`, `End Site`.
+fn is_end(node: &Node) -> bool {
+    let name = node.name.as_deref().unwrap_or_default().to_lowercase();
+    let marks = ["_end", ".end", "end site", "endsite", "_tip", "_nub"];
+    node.mesh.is_none() && node.children.is_empty() && marks.iter().any(|it| name.ends_with(it))
 }
 
 /// Returns a scale as one number, and reports a scale that differs between axes.

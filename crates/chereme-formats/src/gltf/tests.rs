@@ -89,6 +89,39 @@ fn movement_reads_back_to_a_hundredth_of_a_millimetre() {
         .map(|joint| joint.name.as_str())
         .collect();
     assert_eq!(names, ["Hips root", "Arm.L", "Arm.L (2)"]);
+    let tips: Vec<Option<DVec3>> = scene
+        .clip
+        .skeleton()
+        .joints()
+        .iter()
+        .map(|it| it.tip)
+        .collect();
+    let tip = tips[2].expect("the end of the arm");
+    assert_eq!(tips[..2], [None, None]);
+    assert!(tip.distance(DVec3::X * 0.1) < 1e-7, "{tip}");
+}
+
+#[test]
+fn nodes_that_mark_the_end_of_a_bone_become_its_tip() {
+    for (name, want) in [
+        ("Hand_end", Some(DVec3::Y * 0.2)),
+        ("End Site", Some(DVec3::Y * 0.2)),
+        ("Watch", None),
+    ] {
+        let document = serde_json::json!({
+            "asset": {"version": "2.0"},
+            "nodes": [
+                {"name": "Arm", "children": [1], "scale": [2, 2, 2]},
+                {"name": "Hand", "children": [2], "translation": [0, 0.3, 0]},
+                {"name": name, "translation": [0, 0.1, 0]},
+            ],
+            "skins": [{"joints": [0, 1]}],
+        });
+        let (scene, _) = parse(document.to_string().as_bytes()).expect("glTF");
+        let joints = scene.clip.skeleton().joints();
+        assert_eq!(joints.len(), 2, "{name}");
+        assert_eq!(joints[1].tip, want, "{name}");
+    }
 }
 
 #[test]
@@ -364,7 +397,7 @@ fn figure() -> Skeleton {
         [
             joint("Arm", 2, DVec3::new(0.2 * sign, 0.1, 0.0)),
             joint("ForeArm", 0, DVec3::new(0.0, -0.3, 0.0)),
-            joint("Hand", 0, DVec3::new(0.0, -0.25, 0.05)),
+            joint("Hand", 0, DVec3::new(0.0, -0.25, 0.05)).with_tip(DVec3::new(0.01, -0.1, 0.0)),
             joint("UpLeg", 0, DVec3::new(0.1 * sign, -0.1, 0.0)),
             joint("Leg", 0, DVec3::new(0.0, -0.4, 0.05)),
             joint("Foot", 0, DVec3::new(0.0, -0.4, 0.0)),
@@ -451,6 +484,13 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
         let got = again.model_pose(frame).rotation(own);
         assert!(want.angle_between(got) < 1e-3, "{frame}");
     }
+    // The end of a hand is where it is in the clip, seen from the hand.
+    let end = |clip: &Clip, hand: usize| {
+        let joint = &clip.skeleton().joints()[hand];
+        let pose = clip.model_pose(3);
+        pose.rotation(hand) * joint.tip.expect("the end of a hand")
+    };
+    assert!(end(&clip, hand).distance(end(&again, own)) < 1e-6);
 }
 
 #[test]

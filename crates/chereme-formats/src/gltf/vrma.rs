@@ -52,7 +52,7 @@ pub enum WriteError {
 /// Returns a clip in metres of model space as VRMA.
 ///
 /// Rotations of joints that VRM does not know are added to those of the bones below them. Only the hips change their
-/// position. Feet of the rest pose stand at height 0.
+/// position. Feet of the rest pose stand at height 0. A node's `extras.tip` is the end of a bone without a further joint.
 ///
 /// # Errors
 /// [`WriteError`] if the skeleton lacks hips or arms, the clip has no frame, or a place does not fit into the file.
@@ -109,6 +109,9 @@ pub fn write(
             .collect();
         let mut node = json!({"name": name, "translation": vector(place(at) - from),
             "extras": {"name": skeleton.joint(*joint).name}});
+        if let Some(tip) = skeleton.joint(*joint).tip {
+            node["extras"]["tip"] = json!(vector(rest.rotation(*joint) * tip));
+        }
         if !children.is_empty() {
             node["children"] = json!(children);
         }

@@ -120,7 +120,7 @@ for note in json.loads(scene["chereme_annotations"]):
 /// Returns a clip in metres of model space as a GLB.
 ///
 /// Joints keep their names except for characters that programs change; the node's `extras.name` holds the
-/// original name. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
+/// original name, and `extras.tip` the end of a bone without a further joint. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
 /// Blender keeps them, and JSON in `animations[0].extras`, where three.js does. `chereme_markers` in the former is
 /// a script that makes them markers of Blender's timeline.
 ///
@@ -211,9 +211,15 @@ fn nodes(skeleton: &Skeleton) -> Vec<Value> {
     let mut nodes: Vec<Value> = Vec::new();
     for (at, (joint, name)) in skeleton.joints().iter().zip(names).enumerate() {
         let name = plain(&name);
-        let mut node = Map::new();
+        let (mut node, mut extras) = (Map::new(), Map::new());
         if name != joint.name {
-            node.insert("extras".into(), json!({"name": joint.name}));
+            extras.insert("name".into(), json!(joint.name));
+        }
+        if let Some(tip) = joint.tip {
+            extras.insert("tip".into(), json!(vector(tip)));
+        }
+        if !extras.is_empty() {
+            node.insert("extras".into(), extras.into());
         }
         node.insert("name".into(), name.into());
         node.insert("translation".into(), json!(vector(joint.offset)));
