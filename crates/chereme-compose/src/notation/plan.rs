@@ -329,7 +329,7 @@ impl<'a> Planner<'a> {
             self.together = None;
             self.near = None;
             self.at_body = [None, None];
-            self.speed = speed(notated);
+            self.speed = self.factor(notated);
             for part in &notated.sign.parts {
                 let began;
                 (began, time) = self.part(part, next.next(), time);
@@ -343,6 +343,21 @@ impl<'a> Planner<'a> {
         }
         self.plan.end = self.relax([true, true], time, None) + tuned().tempo.still;
         self.plan
+    }
+
+    /// Returns the factor on the speed of a whole sign, and reports one that is out of range.
+    fn factor(&mut self, notated: &Notated) -> f64 {
+        const RANGE: (f64, f64) = (0.1, 10.0);
+        let legal = |factor: &f64| factor.is_finite() && *factor > 0.0;
+        let speed = notated.speed.filter(legal).unwrap_or(1.0);
+        let asked = speed / notated.timescale.filter(legal).unwrap_or(1.0);
+        let used = asked.clamp(RANGE.0, RANGE.1);
+        if asked != used {
+            self.remark(&format!(
+                "the notation asks for another speed than can be performed: {used} times the usual one is used"
+            ));
+        }
+        used
     }
 
     pub(crate) fn remark(&mut self, text: &str) {
@@ -635,14 +650,6 @@ impl Hands<'_> {
             .sum();
         sum / points.len().max(1) as f64
     }
-}
-
-/// Returns the factor on the speed of a whole sign.
-fn speed(notated: &Notated) -> f64 {
-    let legal = |factor: &f64| factor.is_finite() && *factor > 0.0;
-    let speed = notated.speed.filter(legal).unwrap_or(1.0);
-    let stretch = notated.timescale.filter(legal).unwrap_or(1.0);
-    (speed / stretch).clamp(0.1, 10.0)
 }
 
 /// Returns the frame of the second hand under a symmetry.

@@ -62,6 +62,35 @@ fn time_is_stretched_if_arms_would_move_too_fast() {
 }
 
 #[test]
+fn a_speed_of_a_whole_sign_out_of_range_is_reported() {
+    let place = Some(at(BodyLocation::Chest, None));
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "ol", "d", place),
+        vec![directed("o")],
+    );
+    for (speed, timescale, used) in [
+        (Some(1e300), None, Some("10 times")),
+        (Some(3.0), None, None),
+        (Some(3.0), Some(2.0), None),
+        (None, Some(1e300), Some("0.1 times")),
+        (None, None, None),
+    ] {
+        let sign = Notated {
+            speed,
+            timescale,
+            ..sign.clone()
+        };
+        let made =
+            animate(&[&sign], &stage(Axes::Odd), &Settings::default()).expect("it can be animated");
+        let found = made.report.warnings.iter();
+        let found: Vec<&String> = found.filter(|it| it.contains("another speed")).collect();
+        assert_eq!(found.len(), usize::from(used.is_some()), "{found:?}");
+        assert!(used.is_none_or(|used| found[0].contains(used)), "{found:?}");
+    }
+}
+
+#[test]
 fn a_fast_path_stays_fast_beside_a_change_of_handshape_or_orientation() {
     let flat = posture(
         HandClass::Flat,

@@ -288,6 +288,10 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "les mouvements du corps à la place d’une main s’annotent, ils ne s’animent pas",
     ),
     (
+        "the notation asks for another speed than can be performed: {used} times the usual one is used",
+        "la notation demande une vitesse qui ne peut être exécutée : {used} fois la vitesse habituelle est prise",
+    ),
+    (
         "the wrist bends no farther",
         "le poignet ne se plie pas plus",
     ),
