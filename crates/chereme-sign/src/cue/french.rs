@@ -9,6 +9,8 @@ use regex::Regex;
 use serde::Deserialize;
 
 use super::CueFinding;
+use super::numbers;
+use super::written::{Written, split};
 
 /// Choices of pronunciation that the spelling leaves open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -87,69 +89,20 @@ pub fn phones(text: &str, options: Options) -> Spoken {
                 let word = rules.word(text, &mut spoken.findings);
                 spoken.words.push(Word { hyphened, ..word });
             }
+            Written::Letters(text) => spoken.words.push(rules.spelled(text)),
             Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
         }
     }
     for at in 1..spoken.words.len() {
         let (before, after) = spoken.words.split_at_mut(at);
-        let (word, next) = (&mut before[at - 1], &after[0]);
-        rules.join(word, next, options);
+        let (earlier, word) = before.split_at_mut(at - 1);
+        let (word, next) = (&mut word[0], &after[0]);
+        let settled = numbers::join(earlier.last(), word, next, rules.begins_with_vowel(next));
+        if !settled {
+            rules.join(word, next, options);
+        }
     }
     spoken
-}
-
-enum Written {
-    /// A word, and whether a hyphen joins it to the word before.
-    Word(String, bool),
-    Pause,
-    Other(String),
-}
-
-/// Splits text at blanks, hyphens, apostrophes and punctuation; an apostrophe stays with its word.
-fn split(text: &str) -> Vec<Written> {
-    let mut parts = Vec::new();
-    let mut word = String::new();
-    let mut hyphen = false;
-    let lower = text.to_lowercase();
-    for letter in lower.chars().chain([' ']) {
-        let letter = if letter == '’' { '\'' } else { letter };
-        if letter.is_alphabetic() || letter == '\'' {
-            word.push(letter);
-            if letter != '\'' || RULES.words.contains_key(whole_with(&word, &lower).as_str()) {
-                continue;
-            }
-        }
-        if !word.trim_matches('\'').is_empty() {
-            parts.push(Written::Word(std::mem::take(&mut word), hyphen));
-            hyphen = matches!(letter, '-' | '‐' | '‑');
-        } else if !matches!(letter, '-' | '‐' | '‑') {
-            hyphen = false;
-        }
-        word.clear();
-        if letter.is_numeric() {
-            match parts.last_mut() {
-                Some(Written::Other(number)) => number.push(letter),
-                _ => parts.push(Written::Other(letter.to_string())),
-            }
-        } else if matches!(
-            letter,
-            ',' | '.' | ';' | ':' | '!' | '?' | '…' | '—' | '(' | ')' | '\n'
-        ) && !matches!(parts.last(), None | Some(Written::Pause))
-        {
-            parts.push(Written::Pause);
-        }
-    }
-    parts
-}
-
-/// Returns the known word with an apostrophe inside that `begun` may be the start of, such as *aujourd'hui*.
-fn whole_with(begun: &str, text: &str) -> String {
-    let known = |word: &&String| {
-        word.contains('\'')
-            && word.starts_with(begun)
-            && text.replace('’', "'").contains(word.as_str())
-    };
-    RULES.words.keys().find(known).cloned().unwrap_or_default()
 }
 
 #[derive(Deserialize)]
@@ -169,6 +122,9 @@ struct File {
     never_linked: BTreeSet<String>,
     loses_nasal: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
+    letters: BTreeMap<char, String>,
+    spelled: BTreeSet<String>,
+    abbreviations: BTreeMap<String, String>,
     rules: Vec<Vec<String>>,
 }
 
@@ -180,12 +136,12 @@ struct Rule {
     verb_ending: bool,
 }
 
-struct Rules {
-    vowels: String,
+pub(super) struct Rules {
+    pub(super) vowels: String,
     nasal_ent: Option<Regex>,
     er_is_said: BTreeSet<String>,
     elided: BTreeMap<String, String>,
-    words: BTreeMap<String, String>,
+    pub(super) words: BTreeMap<String, String>,
     liaison: BTreeMap<String, String>,
     /// Endings of verbs by the linking consonant that they have.
     linked_endings: BTreeMap<String, Vec<String>>,
@@ -193,11 +149,17 @@ struct Rules {
     never_linked: BTreeSet<String>,
     loses_nasal: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
+    /// The names of letters.
+    letters: BTreeMap<char, String>,
+    /// Words in capitals that are spelled although they have vowels, such as *EDF*.
+    pub(super) spelled: BTreeSet<String>,
+    /// Short forms and the words that they stand for.
+    pub(super) abbreviations: BTreeMap<String, String>,
     /// The rules by their first letter, in the order of the file.
     by_letter: BTreeMap<char, Vec<Rule>>,
 }
 
-static RULES: LazyLock<Rules> = LazyLock::new(|| {
+pub(super) static RULES: LazyLock<Rules> = LazyLock::new(|| {
     let text = include_str!("../../../../schema/cues/french-spelling.json");
     serde_json::from_str(text).map_or_else(|_| Rules::empty(), Rules::of)
 });
@@ -215,6 +177,9 @@ impl Rules {
             never_linked: BTreeSet::new(),
             loses_nasal: BTreeMap::new(),
             aspirated_h: BTreeSet::new(),
+            letters: BTreeMap::new(),
+            spelled: BTreeSet::new(),
+            abbreviations: BTreeMap::new(),
             by_letter: BTreeMap::new(),
         }
     }
@@ -241,6 +206,9 @@ impl Rules {
         rules.never_linked = file.never_linked;
         rules.loses_nasal = file.loses_nasal;
         rules.aspirated_h = file.aspirated_h;
+        rules.letters = file.letters;
+        rules.spelled = file.spelled;
+        rules.abbreviations = file.abbreviations;
         rules
     }
 
@@ -266,6 +234,17 @@ impl Rules {
             phones,
             text,
             hyphened: false,
+        }
+    }
+
+    /// Says a word letter by letter.
+    fn spelled(&self, text: String) -> Word {
+        let names = text.chars().filter_map(|letter| self.letters.get(&letter));
+        let phones = names.flat_map(|name| name.split_whitespace());
+        Word {
+            phones: phones.map(str::to_owned).collect(),
+            text,
+            ..Word::default()
         }
     }
 

@@ -12,9 +12,11 @@ mod code;
 mod espeak;
 pub mod french;
 mod names;
+mod numbers;
 #[cfg(test)]
 mod tests;
 mod utterance;
+mod written;
 
 pub use espeak::of_espeak;
 pub use names::{gloss, of_gloss, placement_number, placement_of_number};

@@ -188,10 +188,92 @@ fn french_spelling_is_read_by_rules_lists_and_neighbours() {
 }
 
 #[test]
+fn numbers_are_read_as_their_words() {
+    let usual = french::Options::default();
+    for (digits, words) in [
+        ("0", "zéro"),
+        ("1", "un"),
+        ("16", "seize"),
+        ("17 ans", "dix-sept ans"),
+        ("19", "dix-neuf"),
+        ("21", "vingt et un"),
+        ("22 ans", "vingt-deux ans"),
+        ("70", "soixante-dix"),
+        ("71", "soixante et onze"),
+        ("80 ans", "quatre-vingts ans"),
+        ("81", "quatre-vingt-un"),
+        ("92 élèves", "quatre-vingt-douze élèves"),
+        ("99", "quatre-vingt-dix-neuf"),
+        ("100 amis", "cent amis"),
+        ("101", "cent un"),
+        ("200 ans", "deux cents ans"),
+        ("250", "deux cent cinquante"),
+        ("1000", "mille"),
+        ("1 999", "mille neuf cent quatre-vingt-dix-neuf"),
+        ("200000", "deux cent mille"),
+        ("80 000", "quatre-vingt mille"),
+        ("3 000 001", "trois millions un"),
+        ("2000000000", "deux milliards"),
+        ("3,5", "trois virgule cinq"),
+        ("3,05", "trois virgule zéro cinq"),
+        ("1er, 2e", "premier, deuxième"),
+        ("21e", "vingt et unième"),
+        ("8h30", "huit heures trente"),
+        ("1 h", "une heure"),
+        ("9 heures", "neuf heures"),
+        ("5 %", "cinq pour cent"),
+        ("les 12", "les douze"),
+    ] {
+        assert_eq!(said(digits, usual), said(words, usual), "{digits}");
+    }
+    for (text, expected) in [
+        ("six chats", "s i S a"),
+        ("six amis", "s i z a m i"),
+        ("j'en ai six.", "Z A~ n e s i s #"),
+        ("dix-sept", "d i s E t"),
+        ("dix-huit", "d i z H i t"),
+        ("vingt-deux", "v E~ t d 2"),
+        ("quatre-vingt-deux", "k a t R @ v E~ d 2"),
+        ("vingt et un", "v E~ t e 9~"),
+        ("cent un", "s A~ 9~"),
+        ("cent ans", "s A~ t A~"),
+        ("neuf ans", "n 9 v A~"),
+    ] {
+        assert_eq!(said(text, usual), expected, "{text}");
+    }
+    let long = "9".repeat(40);
+    let spoken = french::phones(&long, usual);
+    assert_eq!(spoken.findings, [CueFinding::NotAWord { text: long }]);
+}
+
+#[test]
+fn capitals_are_spelled_and_short_forms_said_in_full() {
+    let usual = french::Options::default();
+    for (text, expected) in [
+        ("la SNCF", "l a E s E n s e E f"),
+        ("S.N.C.F.", "E s E n s e E f"),
+        ("EDF et GDF", "2 d e E f e Z e d e E f"),
+        ("l'ONU", "l O n y"),
+        ("LE CHAT", "l @ S a"),
+    ] {
+        assert_eq!(said(text, usual), expected, "{text}");
+    }
+    for (short, long) in [
+        ("M. Dupont", "monsieur Dupont"),
+        ("Mme et Mlle Dupont", "madame et mademoiselle Dupont"),
+        ("le Dr Dupont", "le docteur Dupont"),
+        ("10 km", "dix kilomètres"),
+        ("etc.", "et cétéra."),
+    ] {
+        assert_eq!(said(short, usual), said(long, usual), "{short}");
+    }
+}
+
+#[test]
 fn words_that_are_not_french_are_reported() {
-    let spoken = french::phones("12 чат", french::Options::default());
+    let spoken = french::phones("½ чат", french::Options::default());
     let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();
-    assert_eq!(reported[0], "\"12\" was left out; write it in words");
+    assert_eq!(reported[0], "\"½\" was left out; write it in words");
     assert!(reported[1].contains("'ч'"), "{reported:?}");
 }
 
