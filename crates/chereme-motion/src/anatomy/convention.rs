@@ -32,6 +32,10 @@ const UNITS: [(&str, f64); 5] = [
     ("acclaim", 0.0254 / 0.45),
 ];
 
+/// The factor in stature, as a logarithm, by which a unit other than metric ones must fit better: a body of 100 units is
+/// rather 1 m tall in centimetres than 2.54 m in inches.
+const RARE: f64 = 0.15;
+
 /// The statures that a unit may give to a body, in metres; they include children.
 const STATURE: std::ops::Range<f64> = 1.2..2.3;
 
@@ -153,9 +157,13 @@ fn unit(
     };
     let middle = (STATURE.start * STATURE.end).sqrt();
     let off = |metres: f64| (measures.stature * metres / middle).ln().abs();
+    let unlikely = |(name, metres): (&str, f64)| {
+        let is_rare = matches!(name, "inch" | "acclaim");
+        off(metres) + if is_rare { RARE } else { 0.0 }
+    };
     let (name, metres) = UNITS
         .into_iter()
-        .min_by(|a, b| off(a.1).total_cmp(&off(b.1)))
+        .min_by(|a, b| unlikely(*a).total_cmp(&unlikely(*b)))
         .unwrap_or(UNITS[0]);
     let stature = measures.stature * metres;
     let half = (STATURE.end / middle).ln();

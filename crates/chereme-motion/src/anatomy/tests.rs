@@ -368,6 +368,23 @@ fn units_and_axes_are_detected_in_every_orientation() {
             }
         }
     }
+    let (_, plain) = worn(PLAIN);
+    let stature = plain.measures().expect("measures").stature;
+    for (name, units, metres) in [
+        ("cm", 100.0, 0.01),
+        ("cm", 230.0, 0.01),
+        ("inch", 48.0, 0.0254),
+        ("mm", 1000.0, 0.001),
+        ("m", 1.0, 1.0),
+    ] {
+        let (skeleton, anatomy) = worn(Wear {
+            unit: units / stature,
+            ..PLAIN
+        });
+        let guess = anatomy.convention(&skeleton, None);
+        assert_eq!(guess.unit_name, name, "{units} {guess:?}");
+        assert!((guess.convention.metres_per_unit - metres).abs() < 1e-12);
+    }
     for metres in [0.3048, 0.0027] {
         let (skeleton, anatomy) = worn(Wear {
             unit: 1.0 / metres,
