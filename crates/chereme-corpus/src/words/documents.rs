@@ -324,6 +324,10 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "annotations qui commencent avec la suivante, laissées de côté : {n}",
     ),
     (
+        "a row has the participant {other}, its tier {first}, which was kept",
+        "une ligne a pour participant {other}, son tier {first}, qui a été gardé",
+    ),
+    (
         "a row was left out: {why}",
         "une ligne a été laissée de côté : {why}",
     ),

@@ -137,6 +137,7 @@ fn table(text: &str, rows: Vec<Entry>) -> Option<Cells> {
         Row { line, cells }
     });
     Some(Cells {
+        header_line: 1,
         rows: rows.collect(),
         header,
         delimiter: b',',

@@ -64,6 +64,7 @@ pub(super) fn read(bytes: &[u8]) -> Option<Cells> {
         });
     }
     Some(Cells {
+        header_line: 1,
         header: TITLES.map(str::to_owned).to_vec(),
         rows,
         delimiter: b',',

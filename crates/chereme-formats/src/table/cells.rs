@@ -103,6 +103,8 @@ pub(crate) struct Row {
 pub(crate) struct Cells {
     pub(crate) delimiter: u8,
     pub(crate) header: Vec<String>,
+    /// The line of the first row.
+    pub(crate) header_line: u64,
     pub(crate) rows: Vec<Row>,
 }
 
@@ -126,6 +128,7 @@ impl Cells {
             .ok_or(TableError::Empty)?;
         let delimiter = sniff(first);
         let mut header: Option<Vec<String>> = None;
+        let mut header_line = 1;
         let mut rows = Vec::new();
         let mut lacking = 0usize;
         for Row { line, cells } in super::rows::split(&text, delimiter, cut, findings) {
@@ -139,7 +142,10 @@ impl Cells {
                         limit: COLUMNS,
                     });
                 }
-                None => header = Some(cells),
+                None => {
+                    header = Some(cells);
+                    header_line = line;
+                }
                 Some(header) => {
                     let width = header.len();
                     lacking += width.saturating_sub(cells.len());
@@ -158,6 +164,7 @@ impl Cells {
         Ok(Self {
             delimiter,
             header,
+            header_line,
             rows,
         })
     }

@@ -32,6 +32,7 @@ pub(super) struct Columns {
     pub(super) start: Option<Time>,
     pub(super) end: Option<Time>,
     pub(super) duration: Option<Time>,
+    pub(super) participant: Option<usize>,
     /// Columns that are tiers, each cell an annotation.
     pub(super) tiers: Vec<(usize, String)>,
 }
@@ -44,6 +45,7 @@ enum Title {
     Duration(Option<TimeUnit>),
     /// ELAN's exports call the value so; other tables the id.
     Annotation,
+    Participant,
     /// Known, but unused.
     Idle,
 }
@@ -63,6 +65,7 @@ impl Columns {
                     put(&mut found.duration, time(unit)) && unit.is_none()
                 }
                 Some(Title::Annotation) => put(&mut annotation, column),
+                Some(Title::Participant) => put(&mut found.participant, column),
                 Some(Title::Idle) => false,
                 None => {
                     unknown.push((column, title.clone()));
@@ -152,6 +155,7 @@ impl Columns {
             ..Self::default()
         };
         found.at[1] = Some(0);
+        found.participant = (begin == 2).then_some(1);
         found.at[4] = (value < width).then_some(value);
         Some(found)
     }
@@ -207,7 +211,8 @@ fn meaning(title: &str) -> Option<Title> {
         "annotation id" => return Some(Title::Named(6)),
         "gloss" | "text" | "annotation value" => return Some(Title::Named(4)),
         "tier name" => return Some(Title::Named(1)),
-        "participant" | "annotator" => return Some(Title::Idle),
+        "participant" => return Some(Title::Participant),
+        "annotator" => return Some(Title::Idle),
         _ => {}
     }
     let (name, unit) = unit(&whole);

@@ -20,8 +20,8 @@ const KIND: &str = "annotation";
 /// with ELAN's title of the begin. Other tables of annotations are changes of recordings that exist.
 #[must_use]
 pub fn is_export(head: &[u8]) -> bool {
-    let head = whole_lines(without_comments(head));
-    let Ok(table) = Cells::read_part(head, true, &mut Findings::default()) else {
+    let head = blank_comments(head).0;
+    let Ok(table) = Cells::read_part(whole_lines(&head), true, &mut Findings::default()) else {
         return false;
     };
     let titled = |name: &str| table.header.iter().any(|it| normal(it).starts_with(name));
@@ -33,7 +33,8 @@ pub fn is_export(head: &[u8]) -> bool {
 /// # Errors
 /// [`TableError`] if the bytes are no such table.
 pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError> {
-    let (table, read) = read(without_comments(bytes), None)?;
+    let (blank, comments) = blank_comments(bytes);
+    let (table, read) = read(&blank, None)?;
     let mut findings = Findings::default();
     for fault in &table.faults {
         findings.add("rows without an annotation", || {
@@ -56,12 +57,25 @@ pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError
             transcript.tiers.push(Tier {
                 name,
                 kind: KIND.to_owned(),
+                participant: row.participant.clone(),
                 ..Tier::default()
             });
             transcript.tiers.len() - 1
         });
+        let known = &transcript.tiers[tier].participant;
+        if let Some(other) = row.participant.filter(|it| known.as_ref() != Some(it)) {
+            findings.add("rows of another participant", || {
+                let first = known.as_deref().unwrap_or_default();
+                Finding::warning(
+                    row.line,
+                    format!(
+                        "a row has the participant {other:?}, its tier {first:?}, which was kept"
+                    ),
+                )
+            });
+        }
         transcript.tiers[tier].annotations.push(Annotation {
-            id: format!("a{}", row.line),
+            id: format!("a{}", row.line.saturating_sub(comments)),
             span: Span::between(start, end),
             timing: Timing::Own,
             parent: None,
@@ -165,17 +179,27 @@ fn apart(tier: &mut Tier, findings: &mut Findings) {
     }
 }
 
-/// Returns a text without the lines at its beginning that name ELAN's media files; a line with tabs is a row.
-fn without_comments(mut bytes: &[u8]) -> &[u8] {
-    while bytes.starts_with(b"#") || bytes.starts_with(b"\"#") {
-        let end = bytes.iter().position(|&it| it == b'\n');
-        let end = end.map_or(bytes.len(), |end| end + 1);
-        if bytes[..end].contains(&b'\t') {
+/// Empties the lines at the beginning of a text that name ELAN's media files, and returns their number; a line with tabs is
+/// a row.
+fn blank_comments(bytes: &[u8]) -> (Cow<'_, [u8]>, u64) {
+    let (mut rest, mut count) = (bytes, 0);
+    while rest.starts_with(b"#") || rest.starts_with(b"\"#") {
+        let end = rest.iter().position(|&it| it == b'\n');
+        let end = end.map_or(rest.len(), |end| end + 1);
+        if rest[..end].contains(&b'\t') {
             break;
         }
-        bytes = &bytes[end..];
+        rest = &rest[end..];
+        count += 1;
     }
-    bytes
+    match count {
+        0 => (Cow::Borrowed(bytes), 0),
+        _ => {
+            let mut text = vec![b'\n'; count];
+            text.extend(rest);
+            (Cow::Owned(text), count as u64)
+        }
+    }
 }
 
 /// Returns a text up to the end of its last whole line, or all of it if it is a single line.
@@ -215,6 +239,46 @@ mod tests {
             described(columns),
             ["Gloss: a2t0 500-1000 BOL", "Mouth: a2t1 500-1000 pa"]
         );
+    }
+
+    #[test]
+    fn participants_are_those_of_the_tiers() {
+        for text in [
+            "Gloss\tAnna\t0.5\t1.0\tBOL\nGloss\tAnna\t2.0\t2.5\tCHAT\nMouth\t\t2.0\t2.5\tpa\n",
+            "Tier\tParticipant\tBegin Time - msec\tEnd Time - msec\tAnnotation\nGloss\tAnna\t500\t1000\tBOL\n\
+             Mouth\t\t500\t1000\tpa\n",
+        ] {
+            let (found, findings) = transcript(text.as_bytes()).expect("a table");
+            assert!(
+                findings
+                    .iter()
+                    .all(|it| !it.message.contains("participant"))
+            );
+            let people: Vec<Option<&str>> = found
+                .tiers
+                .iter()
+                .map(|it| it.participant.as_deref())
+                .collect();
+            assert_eq!(people, [Some("Anna"), None], "{text}");
+            let (again, _) = transcript(write(&found).as_bytes()).expect("a table");
+            assert_eq!(again.tiers[0].participant.as_deref(), Some("Anna"));
+        }
+        let two = "G\tAnna\t0.5\t1.0\tBOL\nG\tBob\t2.0\t2.5\tCHAT\n";
+        let (found, findings) = transcript(two.as_bytes()).expect("a table");
+        assert_eq!(found.tiers[0].participant.as_deref(), Some("Anna"));
+        assert!(
+            findings
+                .iter()
+                .any(|it| it.line == Some(2) && it.message.contains("\"Bob\""))
+        );
+    }
+
+    #[test]
+    fn findings_name_lines_of_the_file_behind_its_media() {
+        let text = "#a.mp4\n#b.mp4\nG\t\t0.5\t1.0\tA\nG\t\tlate\t1.2\tB\n";
+        let (_, findings) = transcript(text.as_bytes()).expect("a table");
+        let lines: Vec<Option<u64>> = findings.iter().map(|it| it.line).collect();
+        assert_eq!(lines, [Some(3), Some(4)], "{findings:?}");
     }
 
     #[test]

@@ -57,6 +57,9 @@ pub struct ChangeRow {
     pub id: Option<String>,
     /// The id of the annotation above, on a symbolic tier.
     pub parent: Option<String>,
+    /// The person to whom the tier belongs, in ELAN's exports.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub participant: Option<String>,
 }
 
 /// A row that cannot be carried out.
@@ -115,10 +118,11 @@ pub fn read(
     let columns = match Columns::of_export(&table) {
         Some(columns) => {
             let cells = std::mem::take(&mut table.header);
-            table.rows.insert(0, RawRow { line: 1, cells });
+            let line = table.header_line;
+            table.rows.insert(0, RawRow { line, cells });
             findings.add("no titles", || {
                 Finding::note(
-                    1,
+                    line,
                     "the table has no titles; it was read as ELAN exports it: tier, begin, end, annotation",
                 )
             });
@@ -216,6 +220,7 @@ fn row(
         })?,
         id: owned(6),
         parent: owned(7),
+        participant: cell_at(columns.participant).map(str::to_owned),
     };
     if let (Some(Moment::Time(start)), Some(Moment::Time(end))) = (row.start, row.end)
         && end <= start
