@@ -14,6 +14,7 @@ use chereme_motion::{Convention, Direction, Instant, Marker, Markers, Rate, Spac
 use glam::DVec3;
 
 use crate::finding::Finding;
+use crate::scene::near_usual;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
 use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, rate_of, unique, up_of};
@@ -52,6 +53,12 @@ pub enum Error {
         line: u64,
         /// The cell.
         cell: String,
+    },
+    /// Neither the header nor the times show a rate.
+    #[error("line 3: DataRate is {found:?}; write the number of frames a second there")]
+    Rate {
+        /// The value of the header.
+        found: String,
     },
     /// There are no rows or no markers.
     #[error("the file holds no markers")]
@@ -241,8 +248,20 @@ fn times(
         .iter()
         .map(|(_, time)| Some(time.as_ref()?.to_f64()))
         .collect();
-    let (Some(seconds), Some(rate)) = (seconds, rate) else {
-        let rate = rate.ok_or(Error::Missing("DataRate"))?;
+    let rate = match (rate, seconds.as_deref().and_then(rate_of_times)) {
+        (Some(rate), _) => rate,
+        (None, Some(rate)) => {
+            let stated = stated.unwrap_or_default();
+            let text = format!("DataRate is {stated:?}; the times of the rows show {rate}");
+            findings.push(Finding::warning(3, text));
+            rate
+        }
+        (None, None) => {
+            let found = stated.unwrap_or_default().chars().take(40).collect();
+            return Err(Error::Rate { found });
+        }
+    };
+    let Some(seconds) = seconds else {
         findings.push(Finding::warning(
             None,
             "some rows have no time; frames are taken to be even",
@@ -274,6 +293,14 @@ fn times(
     };
     let times = Times::listed(column).map_err(|error| Error::Track(error.to_string()))?;
     Ok((times, offset))
+}
+
+/// Returns the rate of moments in seconds, from the median of their distances.
+fn rate_of_times(seconds: &[f64]) -> Option<Rate> {
+    let mut steps: Vec<f64> = seconds.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let step = *steps.get(steps.len() / 2)?;
+    rate_of(near_usual(1.0 / step))
 }
 
 fn convention(unit: Option<&str>, points: &[Marker], findings: &mut Findings) -> Convention {

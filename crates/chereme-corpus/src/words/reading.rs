@@ -346,6 +346,14 @@ pub(super) const READING: &[(&str, &str)] = &[
         "ce n’est pas un fichier TRC : sa première ligne ne commence pas par PathFileType",
     ),
     (
+        "DataRate is {text}; write the number of frames a second there",
+        "DataRate est {text} ; écrivez-y le nombre d’images par seconde",
+    ),
+    (
+        "DataRate is {text}; the times of the rows show {rate}",
+        "DataRate est {text} ; les temps des lignes montrent {rate}",
+    ),
+    (
         "the line of {what} is missing",
         "il manque la ligne de {what}",
     ),

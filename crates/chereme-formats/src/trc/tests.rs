@@ -62,6 +62,20 @@ fn wrong_counts_and_uneven_times_are_reported() {
 }
 
 #[test]
+fn without_a_rate_in_the_header_the_times_decide() {
+    let (first, _) = markers(PLAIN);
+    for other in ["0", "fast", "-5"] {
+        let text = PLAIN.replacen("\n100\t", &format!("\n{other}\t"), 1);
+        let (again, findings) = markers(&text);
+        assert_eq!(again.times(), first.times(), "{other}");
+        assert_eq!(findings[0].line, Some(3));
+        let timeless = text.replace("0.010000", "").replace("0.000000", "");
+        let error = read(timeless.as_bytes()).expect_err("no rate").to_string();
+        assert!(error.starts_with("line 3: DataRate is"), "{error}");
+    }
+}
+
+#[test]
 fn damaged_files_are_refused_with_the_line() {
     let cases = [
         (String::new(), "no TRC file"),
