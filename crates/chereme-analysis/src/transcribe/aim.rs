@@ -147,6 +147,20 @@ pub(super) struct Turned {
     pub(super) less: f64,
 }
 
+impl Turned {
+    /// Returns the same reading of a hand that is observed along an axis and with a palm (unit vectors): its residuals are
+    /// those to them.
+    pub(super) fn seen_from(mut self, [along, normal]: [DVec3; 2]) -> Self {
+        let at = vector(&self.extended.best);
+        let facing = normal.reject_from_normalized(along);
+        let onto = DQuat::from_rotation_arc(along, at);
+        let shown = orientation::palm_angle(at.to_array(), (onto * facing).to_array());
+        self.extended.residual = at.angle_between(along).to_degrees();
+        self.palm.residual = wrapped(shown - self.palm.best.angle()).abs().to_degrees();
+        self
+    }
+}
+
 /// A candidate direction and palm.
 #[derive(Clone, Copy)]
 struct Meant {

@@ -13,6 +13,7 @@ mod movement;
 pub(super) mod replaced;
 #[cfg(test)]
 mod tests;
+mod turning;
 mod unrolled;
 
 use std::cell::Cell;
@@ -74,10 +75,10 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         if settled {
             break;
         }
-        let Some(verified) = proof.verified() else {
+        let Some(verified) = proof.verified(proof.first_trial()) else {
             break;
         };
-        best = verified;
+        best = proof.rather_turned(verified);
     }
     proof.reported(first.clone(), best)
 }
@@ -248,16 +249,27 @@ impl Proof<'_, '_> {
         }
     }
 
-    /// Returns the preferred reading; `None` if the first reading cannot be synthesised.
-    fn verified(&self) -> Option<Verified> {
+    /// Returns the preferred reading, the places of `first` or others; `None` if `first` cannot be synthesised.
+    fn verified(&self, first: Trial) -> Option<Verified> {
         self.postures.set(MOST_POSTURES);
-        let first = self.first_trial();
-        let kept = |off| Verified {
-            trial: first.clone(),
-            picked: None,
-            off,
-        };
         let begun = self.begun_as(first.clone())?;
+        let kept = |off| {
+            let is_own = first.turned.iter().all(Option::is_none);
+            let tried = Tried {
+                off,
+                ..begun.clone()
+            };
+            let picked = if is_own {
+                None
+            } else {
+                tried.verified().picked
+            };
+            Verified {
+                trial: first.clone(),
+                picked,
+                off,
+            }
+        };
         if self.open(begun.off).is_empty() {
             return Some(kept(begun.off));
         }

@@ -324,7 +324,8 @@ pub(super) fn scaled(turn: DQuat) -> DVec3 {
     turn.to_scaled_axis()
 }
 
-fn rotation(along: DVec3, normal: DVec3) -> DQuat {
+/// Returns the rotation that takes the first axis to `along` and the second to `normal`, as far as that is across.
+pub(super) fn rotation(along: DVec3, normal: DVec3) -> DQuat {
     let normal = normal
         .reject_from(along)
         .normalize_or(along.any_orthonormal_vector());

@@ -2,10 +2,12 @@
 //! own.
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
-use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Constellation, Contact, Digit};
-use chereme_sign::hamnosys::{HandClass, MotionKind, Place, Side, Site, Size};
+use chereme_sign::hamnosys::{Aim, BodyLocation, BodyPlace, Constellation, Contact, Digit};
+use chereme_sign::hamnosys::{HandClass, MotionKind, Place, Side, Site, Size, orientation};
+use glam::DQuat;
 
 use super::*;
+use crate::transcribe::aim;
 use crate::transcribe::place::{Together, named};
 use crate::transcribe::scene::Scene;
 use crate::transcribe::tests::{Held, before_chest, clip, ease};
@@ -236,6 +238,69 @@ fn a_movement_that_is_misread_is_replaced_with_its_features() {
         "{:?}",
         found.findings
     );
+}
+
+/// An animator that turns every hand otherwise than it is written, by the same rotation.
+struct Turns {
+    held: Held,
+    by: DQuat,
+}
+
+impl Performs for Turns {
+    fn begins(&self, sign: &Sign) -> Option<Clip> {
+        let posture = &sign.parts[0].posture;
+        let along = aim::vector(posture.extended.dominant()?);
+        let palm = orientation::palm(along.to_array(), posture.palm.dominant()?.angle());
+        let written = Held {
+            along,
+            palm: palm.into(),
+            ..self.held.clone()
+        };
+        Some(clip(0.0, |_| [Some(written.turned(self.by)), None]).0)
+    }
+
+    fn performs(&self, sign: &Sign) -> Option<Clip> {
+        self.begins(sign)
+    }
+}
+
+#[test]
+fn a_hand_that_is_turned_less_than_written_is_read_as_written() {
+    for (along, palm, by) in [
+        ("il", "r", [0.0, 0.5, 0.0]),
+        ("u", "l", [-0.45, 0.0, 0.0]),
+        ("ul", "d", [0.2, 0.3, -0.3]),
+        ("o", "dr", [0.0, 0.0, 0.6]),
+    ] {
+        let held = Held::new([-0.1, 0.0, 0.3], along, palm, HandClass::Flat);
+        let turns = Turns {
+            held: held.clone(),
+            by: DQuat::from_scaled_axis(by.into()),
+        };
+        let there = held.turned(turns.by);
+        let (observed, anatomy) = clip(0.0, |_| [Some(there.clone()), None]);
+        let options = Options::made();
+        let alone = transcribe(&observed, &anatomy, &options).expect("a sign");
+        let proven = transcribe_proven(&observed, &anatomy, &options, &turns).expect("a sign");
+        let read = |found: &Transcription| {
+            let posture = &found.sign.parts[0].posture;
+            (posture.extended.clone(), posture.palm.clone())
+        };
+        let written = (
+            Each::Shared(Aim::at(along.parse().expect("a direction"))),
+            Each::Shared(Aim::at(palm.parse().expect("a palm"))),
+        );
+        assert_ne!(read(&alone), written, "it needs no re-synthesis");
+        assert_eq!(read(&proven), written, "{by:?}");
+        let residual = |kind: FeatureKind| {
+            let mut features = proven.features.iter();
+            features.find(|it| it.kind == kind).map(|it| it.residual)
+        };
+        let apart =
+            aim::vector(&Aim::at(along.parse().expect("a direction"))).angle_between(there.along);
+        let shown = residual(FeatureKind::Direction).expect("a direction");
+        assert!((shown - apart.to_degrees()).abs() < 1.0, "{shown}");
+    }
 }
 
 #[test]
