@@ -141,7 +141,7 @@ pub(super) fn show(
     below: Rect,
     out: &mut Outbox,
 ) {
-    let Some(mut editing) = timeline.entry.editing.take() else {
+    let Some(mut editing) = timeline.entry.take() else {
         timeline.entry.left = false;
         return;
     };

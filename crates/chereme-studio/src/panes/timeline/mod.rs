@@ -335,8 +335,8 @@ impl Pane for Timeline {
             Ok(_) => {}
             Err(_) => {
                 self.asked.ghosts.clear();
-                if let (Some(typed), None) = (then.typed, &self.entry.editing) {
-                    self.entry.editing = Some(typed.again());
+                if let Some(typed) = then.typed {
+                    self.entry.refuse(typed);
                 }
             }
         }

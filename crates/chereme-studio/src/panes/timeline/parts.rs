@@ -1,6 +1,6 @@
 //! The parts of the timeline's state, by duty.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
 use chereme_motion::Span;
@@ -121,6 +121,8 @@ pub(super) struct Entry {
     pub(super) begun: Option<Begun>,
     /// The value that is being typed.
     pub(super) editing: Option<Editing>,
+    /// Values that could not be stored while the next one was typed; each opens again when no field is open.
+    pub(super) refused: VecDeque<Editing>,
     /// Whether another pane was brought to the front while a value was typed.
     pub(super) left: bool,
     pub(super) picker: Picker,
@@ -133,10 +135,28 @@ impl Entry {
     /// Returns the unfinished work; `typed` is text that is not stored yet.
     pub(super) fn draft(&self, typed: Option<Editing>) -> Option<Draft> {
         let draft = Draft {
-            editing: self.editing.clone().or(typed),
+            editing: self
+                .editing
+                .clone()
+                .or_else(|| self.refused.front().cloned())
+                .or(typed),
             begun: self.begun.clone(),
         };
         (draft != Draft::default()).then_some(draft)
+    }
+
+    /// Opens the field again with a value that could not be stored; a field in which something was typed comes first.
+    pub(super) fn refuse(&mut self, typed: Editing) {
+        match &self.editing {
+            Some(open) if open.text != open.before => self.refused.push_back(typed),
+            _ => self.editing = Some(typed.again()),
+        }
+    }
+
+    /// Takes the value whose field is open, or is to be opened.
+    pub(super) fn take(&mut self) -> Option<Editing> {
+        let open = self.editing.take();
+        open.or_else(|| self.refused.pop_front().map(Editing::again))
     }
 
     /// Returns the recording with unfinished work.
@@ -177,5 +197,39 @@ impl Boxes {
             || self.tier_box.is_some()
             || self.paste_box.is_some()
             || self.go_box.is_some()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::editor::Target;
+    use super::*;
+
+    fn typed(id: i64, text: &str) -> Editing {
+        let mut editing = Editing::new(1, Target::Of(BTreeSet::from([id])), "before".to_owned());
+        editing.text = text.to_owned();
+        editing
+    }
+
+    #[test]
+    fn values_that_could_not_be_stored_open_again_one_after_the_other() {
+        let mut entry = Entry {
+            editing: Some(typed(2, "COQ")),
+            ..Entry::default()
+        };
+        let open = |entry: &Entry| entry.editing.as_ref().map(|it| it.text.clone());
+        entry.refuse(typed(1, "LIONNE"));
+        assert_eq!(open(&entry).as_deref(), Some("COQ"), "it is being typed");
+        // The field is closed, and the next one opened, in which nothing was typed yet.
+        entry.editing = Some(typed(3, "before"));
+        entry.refuse(typed(2, "COQ"));
+        assert_eq!(open(&entry).as_deref(), Some("COQ"));
+        let texts: Vec<String> = std::iter::from_fn(|| entry.take())
+            .map(|it| it.text)
+            .collect();
+        assert_eq!(texts, ["COQ", "LIONNE"]);
+        entry.refuse(typed(1, "LIONNE"));
+        let draft = entry.draft(None).and_then(|it| it.editing);
+        assert_eq!(draft.map(|it| it.text).as_deref(), Some("LIONNE"));
     }
 }
