@@ -107,6 +107,14 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(count(&window, proposed), all);
     assert_eq!(count(&window, accepted), 0);
+    // F2 types another value, and accepts nothing.
+    press(&mut window, Modifiers::ALT, Key::N);
+    press(&mut window, Modifiers::NONE, Key::F2);
+    let mut fields = window.query_all_by_label_contains("Value on");
+    assert!(fields.next().is_some(), "the field is open");
+    drop(fields);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(count(&window, proposed), all);
     press(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(count(&window, proposed), 0, "all of them were one step");
 }

@@ -128,8 +128,10 @@ actions! {
         Annotation, Corpus, In(Timeline), repeats, "Ctrl+Alt+Left" "=" "=";
     SelectOnTier "annotation.select-on-tier" "Select all on the tier" | "Tout sélectionner sur l’acteur"
         Annotation, Corpus, In(Timeline), "Ctrl+A" "Ctrl+Alt+A" "=";
+    EnterValue "value.enter" "Accept the proposal, or type the value" | "Accepter la proposition, ou saisir la valeur"
+        Value, Corpus, In(Timeline), changes, "Enter" "=" "=";
     EditValue "value.edit" "Type the value" | "Saisir la valeur"
-        Value, Corpus, In(Timeline), changes, "Enter F2 Ctrl+Alt+M" "=" "=";
+        Value, Corpus, In(Timeline), changes, "F2 Ctrl+Alt+M" "=" "=";
     Propose "value.propose" "Propose values from movement" | "Proposer des valeurs d’après le mouvement"
         Value, Corpus, In(Timeline), changes, "Ctrl+Alt+P" "=" "=";
     Detect "value.detect" "Propose with a detector…" | "Proposer avec un détecteur…"

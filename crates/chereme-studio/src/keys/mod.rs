@@ -176,6 +176,14 @@ impl Keys {
             let (at, (action, repeat)) = found.find_map(|(at, it)| Some((at, pressed(it)?)))?;
             let text = match input.events.remove(at) {
                 Event::Paste(text) => Some(text),
+                Event::Key { key, .. } => {
+                    // The letter of a shortcut is no text for a field that is open or that the action opens.
+                    let letter = key == Key::Space || key.symbol_or_name().chars().count() == 1;
+                    if letter && matches!(input.events.get(at), Some(Event::Text(_))) {
+                        input.events.remove(at);
+                    }
+                    None
+                }
                 _ => None,
             };
             if !repeat || action.row().repeats {
@@ -260,6 +268,42 @@ mod tests {
         }
         let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
         assert_eq!(keys.action(chord("Ctrl+Z"), menu), Some(Action::Undo));
+    }
+
+    #[test]
+    fn the_letter_of_a_shortcut_is_no_text() {
+        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
+        let place = KeyContext {
+            pane: Some(PaneKind::Timeline),
+            typing: true,
+            ..AT
+        };
+        let key = |key, pressed, modifiers| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers,
+        };
+        let text = |text: &str| Event::Text(text.to_owned());
+        let mut input = InputState::default();
+        input.events = vec![
+            key(Key::N, true, Modifiers::ALT),
+            text("n"),
+            key(Key::N, false, Modifiers::ALT),
+            key(Key::X, true, Modifiers::NONE),
+            text("x"),
+            key(Key::F2, true, Modifiers::NONE),
+            text("y"),
+        ];
+        let taken = std::iter::from_fn(|| keys.take(&mut input, place));
+        let taken: Vec<Action> = taken.map(|it| it.0).collect();
+        assert_eq!(taken, [Action::NextProposal, Action::EditValue]);
+        let left = input
+            .events
+            .iter()
+            .filter(|it| matches!(it, Event::Text(_)));
+        assert_eq!(left.collect::<Vec<_>>(), [&text("x"), &text("y")]);
     }
 
     #[test]

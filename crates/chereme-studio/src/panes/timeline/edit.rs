@@ -63,6 +63,13 @@ impl<'a> Scene<'a> {
         self.seen.shown.player.playhead().micros()
     }
 
+    /// Returns the time at the playhead for a boundary: that of the nearest frame if boundaries snap to frames.
+    fn boundary(&self) -> i64 {
+        let snaps = self.seen.settings.timeline.snaps.frames;
+        let frames = self.frames().filter(|_| snaps);
+        frames.map_or(self.playhead(), |it| it.nearest(self.playhead()))
+    }
+
     /// Returns the frame times of the recording's movement, if it has any.
     pub(super) fn frames(&self) -> Option<Frames> {
         let glance = self.seen.snapshot.recording(self.contents.recording.id)?;
@@ -115,8 +122,8 @@ pub(super) fn act(
         Action::BeginEndAnnotation => begin_or_end(timeline, scene, None, out),
         Action::SplitAnnotation => split(timeline, scene, out),
         Action::MergeAnnotation => merge(timeline, scene, out),
-        Action::EditValue if chosen.is_empty() => create(timeline, scene),
-        Action::EditValue => {
+        Action::EnterValue | Action::EditValue if chosen.is_empty() => create(timeline, scene),
+        Action::EnterValue | Action::EditValue => {
             timeline.edit(scene, chosen.clone());
             Acted::Yes
         }
@@ -225,7 +232,7 @@ fn begin_or_end(
     let Some(tier) = scene.tier() else {
         return Acted::Cannot(words::NEEDS_TIER);
     };
-    let here = scene.playhead();
+    let here = scene.boundary();
     let Some(begun) = timeline.entry.begun.take() else {
         timeline.entry.begun = Some(Begun {
             recording: scene.contents.recording.id,

@@ -47,11 +47,11 @@ pub(super) fn act(
             Some(next) => go(timeline, next, out),
             None => return Acted::Cannot(words::NO_PROPOSAL),
         },
-        Action::AcceptProposal | Action::EditValue => {
+        Action::AcceptProposal | Action::EnterValue => {
             let chosen = chosen(scene);
             if chosen.is_empty() {
                 return match action {
-                    Action::EditValue => Acted::No,
+                    Action::EnterValue => Acted::No,
                     _ => Acted::Cannot(words::NO_PROPOSAL),
                 };
             }
