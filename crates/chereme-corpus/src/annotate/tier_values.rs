@@ -33,6 +33,15 @@ pub struct TierValues {
 /// Special values of coded tiers for a missing value, as they are typed.
 pub const MISSING: [&str; 2] = ["n/a", "unclear"];
 
+/// Returns the names of a special value in a language other than English: the usual one first.
+fn names_of(missing: &str, language: &str) -> &'static [&'static str] {
+    match (missing, language) {
+        ("n/a", "fr") => &["sans objet", "non applicable"],
+        ("unclear", "fr") => &["incertain"],
+        _ => &[],
+    }
+}
+
 /// Returns the possible values of a tier.
 #[must_use]
 pub fn values(
@@ -69,11 +78,15 @@ pub fn values(
     }));
     all.sort_by_key(|choice| std::cmp::Reverse(choice.used));
     let coded = inventory.is_some() || tier.row.role.is_coded();
-    all.extend(MISSING.iter().filter(|_| coded).map(|value| TierValue {
-        value: (*value).to_owned(),
-        name: None,
-        used: 0,
-        known: vec![(*value).to_owned()],
+    all.extend(MISSING.iter().filter(|_| coded).map(|value| {
+        let names = names_of(value, language);
+        let known = names.iter().chain([value]).map(|name| fold(name));
+        TierValue {
+            value: (*value).to_owned(),
+            name: names.first().map(|name| (*name).to_owned()),
+            used: 0,
+            known: known.collect(),
+        }
     }));
     TierValues {
         all,
@@ -117,7 +130,11 @@ impl TierValues {
             return Some(choice.value.clone());
         }
         if !self.closed || text.is_empty() || text == "unset" {
-            return Some(text.to_owned());
+            let missing = |it: &&TierValue| {
+                MISSING.contains(&it.value.as_str()) && it.known.iter().any(|name| name == text)
+            };
+            let missing = self.all.iter().find(missing);
+            return Some(missing.map_or_else(|| text.to_owned(), |it| it.value.clone()));
         }
         let best = self.fitting(text).first().copied()?;
         Some(self.all[best].value.clone())
@@ -163,6 +180,26 @@ mod tests {
             id: 1,
             inventory: found.expect("built in").clone(),
         }
+    }
+
+    #[test]
+    fn special_values_are_typed_in_the_language_of_the_window() {
+        let shapes = shapes();
+        for (inventory, language, typed, kept) in [
+            (None, "fr", "incertain", "unclear"),
+            (None, "fr", "non applicable", "n/a"),
+            (None, "fr", "INCERTAIN", "INCERTAIN"),
+            (None, "en", "incertain", "incertain"),
+            (Some(&shapes), "fr", "sans objet", "n/a"),
+            (Some(&shapes), "fr", "incertain", "unclear"),
+            (Some(&shapes), "fr", "unclear", "unclear"),
+        ] {
+            let choices = values(&tier("gloss", &["BOL"]), inventory, language);
+            assert_eq!(choices.kept(typed, None).as_deref(), Some(kept), "{typed}");
+        }
+        let french = values(&tier("gloss", &[]), None, "fr");
+        let names: Vec<Option<&str>> = french.all.iter().map(|it| it.name.as_deref()).collect();
+        assert_eq!(names, [Some("sans objet"), Some("incertain")]);
     }
 
     fn fitting(choices: &TierValues, text: &str) -> Vec<String> {

@@ -232,6 +232,10 @@ pub(super) const CODING: &[(&str, &str)] = &[
         "{annotation} sur l’acteur racine {tier} est sous {parent} ; les annotations d’un acteur racine n’ont pas de parent",
     ),
     (
+        "{annotation} on the symbolic {tier} lasts from {start} to {end}; from its parent follows {from} to {to}",
+        "{annotation} sur {tier}, symbolique, dure de {start} à {end} ; de sa parente suit {from} à {to}",
+    ),
+    (
         "{annotation} on {tier} lasts from {start} to {end}; it must lie inside {parent}, from {from} to {to}",
         "{annotation} sur {tier} dure de {start} à {end} ; elle doit se trouver dans {parent}, de {from} à {to}",
     ),

@@ -34,6 +34,8 @@ texts! {
     WHAT: "what", "quoi";
     CHANGES: "changes", "modifications";
     DID_IMPORT: "Imported: {what}", "Importé : {what}";
+    FILES: "{n} files from {first} to {last}", "{n} fichiers, de {first} à {last}";
+    NOTHING_NEW: "nothing new", "rien de nouveau";
     DID_RECOMBINE: "{gloss} made: {recipe}", "{gloss} composé : {recipe}";
     DID_RECOMBINE_AGAIN: "{gloss} made again: {recipe}", "{gloss} refait : {recipe}";
     DID_ANNOTATE: "{what} in {place}", "{what} dans {place}";
@@ -73,6 +75,22 @@ texts! {
     DID_FORGET_SEARCH: "Saved search removed: {what}", "Recherche enregistrée supprimée : {what}";
 }
 
+/// Returns the summary of an import in a language; names of files stay as they are.
+fn imported(summary: &str, language: Language) -> String {
+    if summary == NOTHING_NEW.en {
+        return NOTHING_NEW.of(language).to_owned();
+    }
+    let files = summary.split_once(" files from ").and_then(|(n, rest)| {
+        let (first, last) = rest.split_once(" to ")?;
+        let n: usize = n.parse().ok()?;
+        Some(fill(
+            FILES.of(language),
+            &[("n", &n), ("first", &first), ("last", &last)],
+        ))
+    });
+    files.unwrap_or_else(|| summary.to_owned())
+}
+
 /// Returns the effect of an operation, as a sentence.
 #[must_use]
 pub fn sentence(it: &OperationRow, language: Language) -> String {
@@ -80,7 +98,7 @@ pub fn sentence(it: &OperationRow, language: Language) -> String {
     let summary = it.summary.as_str();
     let parted = |word: &str| summary.rsplit_once(word);
     let known = match it.name.as_str() {
-        "import" => Some(say(DID_IMPORT, &[("what", &summary)])),
+        "import" => Some(say(DID_IMPORT, &[("what", &imported(summary, language))])),
         "recombine" | "recombine again" => summary.split_once(" = ").map(|(gloss, recipe)| {
             let text = if it.name == "recombine" {
                 DID_RECOMBINE
@@ -278,6 +296,18 @@ mod tests {
                 "2 annotations fusionnées dans Un",
             ),
             ("import", "a.bvh", "Imported: a.bvh", "Importé : a.bvh"),
+            (
+                "import",
+                "27 files from aimer.bvh to week-end.eaf",
+                "Imported: 27 files from aimer.bvh to week-end.eaf",
+                "Importé : 27 fichiers, de aimer.bvh à week-end.eaf",
+            ),
+            (
+                "import",
+                "nothing new",
+                "Imported: nothing new",
+                "Importé : rien de nouveau",
+            ),
             (
                 "propose",
                 "2 added in Un",
