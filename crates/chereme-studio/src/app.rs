@@ -14,20 +14,19 @@ use crate::clipboard::Clipboard;
 use crate::command::Command;
 use crate::context::{DisplayState, Outbox, PaneInput};
 use crate::draft::Drafts;
-use crate::file_dialogs::{Choose, Chooser, Chosen};
+use crate::file_dialogs::{Chooser, Chosen};
 use crate::film::Films;
 use crate::keys::{KeyContext, Keys};
 use crate::miniatures::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
 use crate::overlay::Overlays;
-use crate::overlay::notices::NoticeOffer;
 use crate::panes::carry::{self, Sprung};
 use crate::panes::{PaneKind, Panes};
 use crate::script::fonts::Unreported;
 use crate::settings::{Folders, Settings};
 use crate::start::Start;
-use crate::words::{Text, fill};
+use crate::words::Text;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, movement};
@@ -52,6 +51,8 @@ pub struct Studio {
     looking: bool,
     /// Whether the file of the open corpus is missing from its place.
     pub(crate) gone: bool,
+    /// Whether the window was to be closed while the file of the corpus is missing.
+    pub(crate) close_asked: bool,
     /// `None` before the corpus is first read.
     pub(crate) snapshot: Option<Snapshot>,
     pub(crate) shown: DisplayState,
@@ -127,6 +128,7 @@ impl Studio {
             greets: None,
             looking: false,
             gone: false,
+            close_asked: false,
             snapshot: None,
             shown: DisplayState::default(),
             reel: Reel::default(),
@@ -160,6 +162,7 @@ impl Studio {
         theme::apply(&ctx, &self.settings);
         self.fit(ctx.content_rect().size());
         self.listen();
+        self.stay_with_the_corpus(&ctx);
         self.name_window(&ctx);
         self.panes.search.show_made(&mut self.out);
         self.panes.library.show_made(&mut self.out);
@@ -324,50 +327,6 @@ impl Studio {
                         self.hear(ended, about.task);
                     }
                 }
-            }
-        }
-    }
-
-    /// Reports at once if the file of the corpus is missing, and how to save a complete copy.
-    fn stands(&mut self, stands: bool) {
-        self.gone = !stands;
-        let language = self.settings.language;
-        self.overlays.notices.withdraw();
-        if stands {
-            let text = crate::words::shell::BACK_AGAIN.of(language);
-            return self.overlays.notices.hint(text);
-        }
-        let Some(path) = self.corpus().cloned() else {
-            return;
-        };
-        let words = crate::words::shell::GONE.of(language);
-        let text = fill(words, &[("path", &path.display())]);
-        let mut offers = vec![(
-            crate::words::shell::SAVE_COPY,
-            NoticeOffer::Choose(Choose::Copy),
-        )];
-        if !path.exists() && path.parent().is_some_and(std::path::Path::is_dir) {
-            let back = (crate::words::shell::PUT_BACK, NoticeOffer::SaveCopy(path));
-            offers.insert(0, back);
-        }
-        let remedy = crate::words::shell::GONE_REMEDY.of(language);
-        self.overlays.notices.offer(text, remedy, offers);
-    }
-
-    /// Continues in the copy that was saved, or reports why it could not be saved.
-    fn copied(&mut self, saved: Result<PathBuf, chereme_corpus::Error>) {
-        let language = self.settings.language;
-        match saved {
-            Ok(path) => {
-                self.overlays.notices.withdraw();
-                let words = crate::words::shell::COPY_SAVED.of(language);
-                let text = fill(words, &[("path", &path.display())]);
-                self.overlays.notices.hint(text);
-                self.out.send(Command::Begin(Begin::Open(path)));
-            }
-            Err(error) => {
-                let task = Some(crate::words::shell::TASK_COPY);
-                self.overlays.notices.trouble(&error, task, language);
             }
         }
     }

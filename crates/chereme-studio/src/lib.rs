@@ -43,6 +43,7 @@ mod keys;
 mod layout;
 mod menu_and_status;
 mod miniatures;
+mod missing_file;
 mod model;
 mod opening;
 mod overlay;

@@ -5,7 +5,7 @@ mod common;
 use chereme_corpus::Corpus;
 use chereme_studio::Options;
 use common::*;
-use eframe::egui::{Key, Modifiers, Role};
+use eframe::egui::{Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable;
 
 #[test]
@@ -204,6 +204,23 @@ fn a_corpus_that_is_deleted_while_it_is_open_is_noticed_and_saved() {
             .query_by_label_contains("The corpus file is gone")
             .is_some()
     );
+    // The window stays open at first.
+    let close = |window: &mut common::Window<'_>| {
+        let viewport = window.input_mut().viewports.get_mut(&ViewportId::ROOT);
+        let viewport = viewport.expect("the window");
+        viewport.events.push(ViewportEvent::Close);
+        window.step();
+        let all = &window.output().viewport_output[&ViewportId::ROOT].commands;
+        all.contains(&ViewportCommand::CancelClose)
+    };
+    assert!(close(&mut window));
+    assert!(has(&window, "Put it back"));
+    assert!(
+        window
+            .query_by_label_contains("closing the window again loses it")
+            .is_some()
+    );
+    assert!(!close(&mut window));
     click(&mut window, "Put it back");
     until(&mut window, "the file", |_| path.is_file());
     until(&mut window, "the corpus", |it| {

@@ -246,6 +246,17 @@ fn the_properties_of_a_tier_are_edited_in_words() {
     assert_eq!(list(&window, "How"), "within its time (Included In)");
     let name = window.get_by_role_and_label(Role::TextInput, "Name of the tier");
     assert_eq!(name.value().as_deref(), Some("non-manual · brows"));
+    // Arrows go through an open list, too.
+    let says = window.get_by_role_and_label(Role::ComboBox, "What it says");
+    says.focus();
+    window.run_steps(2);
+    press(&mut window, NONE, Key::Space);
+    press(&mut window, NONE, Key::ArrowUp);
+    let other = list(&window, "What it says");
+    assert_ne!(other, "non-manual · brows");
+    press(&mut window, NONE, Key::Space);
+    press(&mut window, NONE, Key::ArrowDown);
+    assert_eq!(list(&window, "What it says"), "non-manual · brows");
 }
 
 #[test]

@@ -3,7 +3,9 @@
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{Address, ExportOptions, ExportReport, ExportWhat, Name};
-use eframe::egui::{Align2, Button, Context, Id, ProgressBar, RichText, ScrollArea, Ui, Window};
+use eframe::egui::{
+    Align2, Button, Context, Id, Key, ProgressBar, RichText, ScrollArea, Ui, Window,
+};
 
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -249,7 +251,8 @@ impl Export {
         }
         ui.checkbox(&mut self.replace, seen.say(words::REPLACE));
         ui.add_space(4.0);
-        self.buttons(ui, seen, settings, &what, out);
+        let entered = typed.response.lost_focus() && ui.input(|it| it.key_pressed(Key::Enter));
+        self.buttons(ui, seen, settings, (&what, entered), out);
         if let Some(wrong) = &self.wrong {
             let lines = wrong.lines().map(|line| spoken(line, seen.language));
             let said = lines.collect::<Vec<_>>().join("\n");
@@ -282,7 +285,7 @@ impl Export {
         ui: &mut Ui,
         seen: &PaneInput<'_>,
         settings: &Settings,
-        what: &What,
+        (what, entered): (&What, bool),
         out: &mut Outbox,
     ) {
         let running = self.asked.and_then(|id| seen.running.get(&id));
@@ -307,7 +310,7 @@ impl Export {
             }
             let ready = !self.to.trim().is_empty();
             let write = Button::new(RichText::new(seen.say(words::WRITE)).strong());
-            if ui.add_enabled(ready, write).clicked() {
+            if ui.add_enabled(ready, write).clicked() || (ready && entered) {
                 self.write(settings, what, out);
             }
         });

@@ -3,7 +3,7 @@
 use chereme_sign::text::fold;
 use eframe::egui::{
     Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, Ui,
-    WidgetInfo, Window,
+    WidgetInfo, Window, vec2,
 };
 
 use crate::action::{ACTIONS, Action, ActionRow, Menu};
@@ -50,7 +50,8 @@ impl KeysHelp {
             .open(&mut open)
             .pivot(Align2::CENTER_CENTER)
             .default_pos(ctx.content_rect().center())
-            .default_size([560.0, 480.0])
+            .default_size(vec2(560.0, 480.0).min(0.8 * ctx.content_rect().size()))
+            .constrain_to(ctx.content_rect())
             .show(ctx, |ui| {
                 keymaps(ui, settings, out);
                 self.filter(ui, language);

@@ -1,9 +1,9 @@
-//! Keyboard use of drop-down lists without opening them: arrows go through the list, and a letter goes to the next
+//! Keyboard use of drop-down lists, open or closed: arrows go through the list, and a letter goes to the next
 //! entry that begins with it.
 
 use eframe::egui::{Event, EventFilter, InnerResponse, Key, Modifiers, Ui};
 
-/// Returns the index in `names` that a key chose, if the list has the focus and is closed.
+/// Returns the index in `names` that a key chose, if the list has the focus.
 pub(crate) fn step<R>(
     ui: &Ui,
     list: &InnerResponse<Option<R>>,
@@ -11,7 +11,7 @@ pub(crate) fn step<R>(
     now: Option<usize>,
 ) -> Option<usize> {
     let id = list.response.id;
-    if list.inner.is_some() || !list.response.has_focus() || names.is_empty() {
+    if !list.response.has_focus() || names.is_empty() {
         return None;
     }
     ui.memory_mut(|memory| {

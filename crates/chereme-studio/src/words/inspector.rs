@@ -31,7 +31,7 @@ texts! {
     HAND: "Hand", "Main";
     INVENTORY: "Inventory", "Inventaire";
     COUNT: "Annotations", "Annotations";
-    FILLED: "{n}, {values} different values", "{n}, {values} valeurs différentes";
+    FILLED: "{n}, different values: {values}", "{n}, valeurs différentes : {values}";
     TOKENS: "Tokens", "Occurrences";
     TIERS: "Tiers", "Acteurs";
     CITATION: "Citation form", "Forme de citation";

@@ -59,6 +59,7 @@ texts! {
     GONE: "The corpus file is gone: {path}", "Le fichier du corpus a disparu : {path}";
     GONE_REMEDY: "It was deleted, moved or replaced while it is open. All of it can still be saved from here; nothing can be changed until then.", "Il a été supprimé, déplacé ou remplacé alors qu’il est ouvert. Tout peut encore être enregistré d’ici ; rien ne peut être modifié d’ici là.";
     GONE_WHY: "The corpus file is gone: save a copy first.", "Le fichier du corpus a disparu : enregistrez d’abord une copie.";
+    GONE_CLOSE: "The corpus is in no file: closing the window again loses it.", "Le corpus n’est dans aucun fichier : fermer encore une fois la fenêtre le perd.";
     BACK_AGAIN: "The corpus file is there again.", "Le fichier du corpus est de retour.";
     HELP_NOTATION: "Notate the sign in the inspector first, or choose a sign that has movement.", "Notez d’abord le signe dans l’inspecteur, ou choisissez un signe qui a un mouvement.";
     SAVE_COPY: "Save a copy…", "Enregistrer une copie…";

@@ -93,7 +93,11 @@ impl Beginning {
 impl Begin {
     fn carry_out(self, author: &str, progress: &mut Progress<'_>) -> Result<PathBuf> {
         match self {
-            Self::Open(path) => Corpus::open(&path, author).map(|_| path),
+            Self::Open(path) => {
+                // A path below the working folder names no folder that the file could be put back into.
+                let path = std::path::absolute(&path).unwrap_or(path);
+                Corpus::open(&path, author).map(|_| path)
+            }
             Self::New(path) => {
                 let path = with_extension(path);
                 Corpus::create(&path, author).map(|_| path)
@@ -199,6 +203,13 @@ mod tests {
         assert!(begin(Begin::New(path.clone())).is_err());
         assert_eq!(begin(Begin::Open(path.clone())).expect("opened"), path);
         assert!(begin(Begin::Open(folder.path().join("gone"))).is_err());
+        let gone = begin(Begin::Open("gone.chereme".into())).expect_err("not there");
+        let here = std::env::current_dir().expect("a folder");
+        assert!(
+            gone.to_string()
+                .contains(&here.join("gone.chereme").display().to_string()),
+            "{gone}"
+        );
     }
 
     #[test]
