@@ -43,6 +43,11 @@ pub enum TimesError {
 /// A hundred years in seconds.
 const LONGEST: f64 = 3.2e9;
 
+/// The shortest pause between two frames that counts as a gap, in microseconds.
+const LEAST_GAP: i64 = 250_000;
+/// The shortest pause between two frames that counts as a gap, in usual steps.
+const GAP_STEPS: i64 = 3;
+
 impl Listed {
     /// Returns the times of a column of seconds.
     ///
@@ -147,12 +152,43 @@ impl Times {
         let Some(last) = frames.min(seconds.len()).checked_sub(1) else {
             return Span::default();
         };
-        let mut steps: Vec<i64> = (0..last)
-            .map(|frame| self.instant(frame + 1).micros() - self.instant(frame).micros())
+        let step = self.usual_step(frames);
+        Span::between(self.instant(0), self.instant(last).shifted(step))
+    }
+
+    /// Returns the usual time from one of `frames` frames to the next, in microseconds: the median; 0 for a single
+    /// listed frame.
+    #[must_use]
+    pub fn usual_step(&self, frames: usize) -> i64 {
+        if let Self::Even(rate) = self {
+            return rate.instant(1).micros();
+        }
+        let mut steps: Vec<i64> = (1..frames.min(self.frames().unwrap_or(frames)))
+            .map(|frame| self.instant(frame).micros() - self.instant(frame - 1).micros())
             .collect();
         steps.sort_unstable();
-        let step = steps.get(steps.len() / 2).copied().unwrap_or_default();
-        Span::between(self.instant(0), self.instant(last).shifted(step))
+        steps.get(steps.len() / 2).copied().unwrap_or_default()
+    }
+
+    /// Returns the longest time between two of `frames` frames across which values may be blended, in microseconds; a
+    /// longer one is a gap, in which nothing was measured. It is a quarter of a second, or three usual steps if those
+    /// are longer.
+    #[must_use]
+    pub fn longest_step(&self, frames: usize) -> i64 {
+        LEAST_GAP.max(self.usual_step(frames).saturating_mul(GAP_STEPS))
+    }
+
+    /// Returns the gaps among `frames` frames: each from the frame before it to the frame after it.
+    #[must_use]
+    pub fn gaps(&self, frames: usize) -> Vec<Span> {
+        let Self::Listed(_) = self else {
+            return Vec::new();
+        };
+        let longest = self.longest_step(frames);
+        (1..frames.min(self.frames().unwrap_or(frames)))
+            .map(|frame| Span::between(self.instant(frame - 1), self.instant(frame)))
+            .filter(|span| span.micros() > longest)
+            .collect()
     }
 
     /// Returns those of `frames` whose times lie in `span`.
@@ -210,6 +246,24 @@ mod tests {
         assert_eq!(times.frames_in(span(0.51, 9.0), 4), 1..4);
         assert_eq!(times.frame_at(Instant::ZERO, 0), None);
         assert_eq!(listed(&[2.0]).span(1).micros(), 0);
+    }
+
+    #[test]
+    fn pauses_of_several_usual_steps_are_gaps() {
+        let gaps = |seconds: &[f64]| -> Vec<(i64, i64)> {
+            let times = listed(seconds);
+            let ends = |it: &Span| (it.start().micros(), it.end().micros());
+            times.gaps(seconds.len()).iter().map(ends).collect()
+        };
+        // At 10 frames a second three steps are longer than a quarter of a second.
+        assert_eq!(gaps(&[0.0, 0.1, 0.2, 0.5, 0.6]), []);
+        assert_eq!(gaps(&[0.0, 0.1, 0.2, 0.6, 0.7]), [(200_000, 600_000)]);
+        assert_eq!(gaps(&[0.0, 0.02, 0.04, 0.28, 0.3]), []);
+        assert_eq!(gaps(&[0.0, 0.02, 0.04, 0.3, 0.32]), [(40_000, 300_000)]);
+        assert_eq!((gaps(&[]), gaps(&[1.0])), (vec![], vec![]));
+        let even = Times::Even(Rate::new(2, 1).expect("a rate"));
+        assert_eq!((even.gaps(9).len(), even.usual_step(9)), (0, 500_000));
+        assert_eq!(even.longest_step(9), 1_500_000);
     }
 
     #[test]

@@ -28,6 +28,24 @@ pub(crate) struct Captured {
     pub(crate) fitted: Option<i64>,
     /// The mean position of the head.
     usual_place: Option<[f64; 3]>,
+    steps: Steps,
+}
+
+/// The times between the frames of a capture, in microseconds.
+#[derive(Debug, Clone, Copy)]
+struct Steps {
+    usual: i64,
+    /// The longest one that is no gap.
+    longest: i64,
+}
+
+impl Steps {
+    fn of(times: &Times, frames: usize) -> Self {
+        Self {
+            usual: times.usual_step(frames),
+            longest: times.longest_step(frames),
+        }
+    }
 }
 
 /// Returns the captured face of a recording, complete or in the frames within a span of the recording's clock: the
@@ -70,6 +88,7 @@ pub(crate) fn captured_with(
         let mut view = system.view(&curves);
         let fitted = fits.apply(recording, &mut view);
         return Ok(Some(Captured {
+            steps: Steps::of(curves.times(), view.faces.len()),
             times: curves.times().clone(),
             usual_place: usual_place(&view),
             view,
@@ -135,6 +154,7 @@ fn of_points(
     }
     let fitted = fits.apply(recording, &mut view);
     Ok(Some(Captured {
+        steps: Steps::of(&times, view.faces.len()),
         usual_place: None,
         row,
         times,
@@ -154,6 +174,38 @@ fn usual_place(view: &View) -> Option<[f64; 3]> {
 }
 
 impl Captured {
+    /// Returns the moments of the frames on the recording's clock.
+    pub(crate) fn moments(&self) -> impl Iterator<Item = Instant> + '_ {
+        let frames = 0..self.view.faces.len();
+        frames.map(|frame| self.times.instant(frame).shifted(self.row.offset_us))
+    }
+
+    /// Returns the usual and the longest time between two frames without a gap, in microseconds.
+    pub(crate) fn steps(&self) -> (i64, i64) {
+        (self.steps.usual, self.steps.longest)
+    }
+
+    /// Returns whether the face was measured at a moment of the recording's clock: within half a usual step of a frame,
+    /// or between two frames without a gap.
+    pub(crate) fn is_measured_at(&self, moment: Instant) -> bool {
+        let own = moment.shifted(-self.row.offset_us);
+        let count = self.view.faces.len();
+        let Some(before) = self.times.frame_at(own, count) else {
+            return false;
+        };
+        // Moments are rounded to microseconds.
+        let near = self.steps.usual / 2 + 1;
+        let at = |frame: usize| self.times.instant(frame).micros();
+        let (own, first) = (own.micros(), at(before));
+        if (own - first).abs() <= near {
+            return true;
+        }
+        let next = before + 1;
+        own > first && next < count && {
+            at(next) - own <= near || at(next) - first <= self.steps.longest
+        }
+    }
+
     /// Returns the rotation of the trunk at a moment, in radians, estimated from the position of the head: a leaning
     /// trunk moves the head forward and sideways. `None` if the capture has no position of the head.
     pub(crate) fn trunk_at(&self, moment: Instant) -> Option<[f64; 3]> {
@@ -180,7 +232,8 @@ impl Captured {
     }
 
     /// Returns the face, its known numbers and the rotation of the head at a moment of the recording's clock, blended
-    /// between frames; before the first frame and after the last one those of the nearest frame.
+    /// between frames, also across gaps; before the first frame and after the last one those of the nearest frame. So a
+    /// face can be drawn at any time: whoever measures asks [`is_measured_at`](Self::is_measured_at) as well.
     pub(crate) fn at(&self, moment: Instant) -> (Face, Option<[f64; 3]>) {
         let (first, second, share) = self.place_of(moment);
         let face = match self.view.faces.get(first) {

@@ -294,7 +294,7 @@ impl Corpus {
         let fits = Fits::of(connection)?;
         let gold = of_expression(connection, &own, target.to_string(), "", &asked, &fits)?;
         let gold = match gold {
-            Some(gold) if options.rank != Rank::Medoid => Some(gold),
+            Some(gold) if options.rank != Rank::Medoid && gold.shows() => Some(gold),
             _ => None,
         };
         if gold.is_none() && options.rank == Rank::Farthest {
@@ -395,7 +395,9 @@ impl Asked<'_> {
         let known = |at: &usize| match gold {
             Some(gold) => gold.columns[*at].is_some(),
             None => {
-                others.iter().filter(|it| it.columns[*at].is_some()).count() * 2 >= others.len()
+                let candidates = || others.iter().filter(|it| it.is_comparable());
+                let shown = candidates().filter(|it| it.columns[*at].is_some());
+                shown.count() * 2 >= candidates().count()
             }
         };
         let use_of: Vec<usize> = (0..self.asked.len()).filter(known).collect();

@@ -39,7 +39,7 @@ pub struct FaceChannel {
 }
 
 /// The index of the trunk's first rotation; they come after head and face.
-const TRUNK: usize = 3 + Face::LEN;
+pub(super) const TRUNK: usize = 3 + Face::LEN;
 
 /// The channels; those that the paper compares come first: head, brows, and brows drawn together; the trunk comes last.
 pub const CHANNELS: [FaceChannel; 27] = {
@@ -72,7 +72,8 @@ pub(crate) struct Performance {
     pub(crate) address: String,
     /// The recording's name.
     pub(crate) name: String,
-    /// Numbers of the requested channels at [`RATE`] from M1 on; `None` if unknown.
+    /// Numbers of the requested channels at [`RATE`] from M1 on; `None` if unknown. Where nothing was measured they are
+    /// no number.
     pub(crate) columns: Vec<Option<Vec<f64>>>,
     /// M1 to M5 in frames.
     pub(crate) marks: [usize; 5],
@@ -82,8 +83,13 @@ pub(crate) struct Performance {
 
 impl Performance {
     /// Returns the performance cut into phases, with numbers in their channels' units. `asked` are the channels of its
-    /// columns, and `use_of` the indices of the columns to use; `one` makes its body a single phase.
+    /// columns, and `use_of` the indices of the columns to use; `one` makes its body a single phase. Of the phases before
+    /// and after the body only the measured part counts.
+    ///
+    /// # Errors
+    /// Fails if the expression is too long, lacks a channel, or its body was not measured throughout.
     pub(crate) fn phased_of(&self, asked: &[usize], use_of: &[usize], one: bool) -> Result<Phased> {
+        self.within_length()?;
         let mut columns = Vec::with_capacity(use_of.len());
         for &at in use_of {
             let channel = CHANNELS[asked[at]];
@@ -94,12 +100,61 @@ impl Performance {
             let unit = channel.counts_as_one;
             columns.push(column.iter().map(|value| value / unit).collect());
         }
-        let mut marks = self.marks;
+        let measured = self.measured(&columns)?;
+        for column in &mut columns {
+            *column = column[measured.clone()].to_vec();
+        }
+        let mut marks = self
+            .marks
+            .map(|mark| mark.clamp(measured.start, measured.end) - measured.start);
         if one {
             marks[2] = marks[1];
         }
         Phased::new(&columns, marks, self.seconds)
             .map_err(|error| Error::wrong(format!("{}: {error}", self.address)))
+    }
+
+    /// Returns whether the expression is short enough to be compared.
+    pub(crate) fn is_comparable(&self) -> bool {
+        self.marks[4] <= LONGEST
+    }
+
+    /// Returns whether it has numbers, or would have some if it were shorter.
+    pub(crate) fn shows(&self) -> bool {
+        !self.is_comparable() || self.columns.iter().any(Option::is_some)
+    }
+
+    fn within_length(&self) -> Result<()> {
+        if self.is_comparable() {
+            return Ok(());
+        }
+        let (address, seconds) = (&self.address, self.seconds);
+        let most = LONGEST as f64 / RATE;
+        Err(Error::wrong(format!(
+            "{address} lasts {seconds:.0} s, and expressions of more than {most:.0} s are not compared"
+        ))
+        .advise("annotate shorter expressions on the tier \"function\""))
+    }
+
+    /// Returns the frames in which all columns have numbers.
+    fn measured(&self, columns: &[Vec<f64>]) -> Result<Range<usize>> {
+        let shown = |frame: &usize| columns.iter().all(|column| column[*frame].is_finite());
+        let frames = 0..self.marks[4].min(columns.iter().map(Vec::len).min().unwrap_or_default());
+        let first = frames.clone().find(shown).unwrap_or(frames.end);
+        let end = frames.clone().rfind(shown).map_or(first, |last| last + 1);
+        let (body, gaps) = (self.marks[1]..self.marks[3], first..end);
+        if first > body.start.min(frames.end)
+            || end < body.end.min(frames.end)
+            || !gaps.clone().all(|frame| shown(&frame))
+        {
+            let missing = frames.filter(|frame| !shown(frame)).count() as f64 / RATE;
+            return Err(Error::wrong(format!(
+                "{}: nothing was measured in {missing:.1} s of its {:.1} s",
+                self.address, self.seconds
+            ))
+            .advise("compare an expression that its capture covers without gaps"));
+        }
+        Ok(gaps)
     }
 }
 
@@ -229,15 +284,16 @@ fn of_recording(
     Ok(all)
 }
 
-/// Returns M1 to M5 as frames at [`RATE`] from M1 on; `None` if there is no frame, or too many.
+/// Returns M1 to M5 as frames at [`RATE`] from M1 on; `None` if there is no frame.
 pub(super) fn cut(milestones: &Milestones) -> Option<[usize; 5]> {
     let times = milestones.times();
     let frame = |at: Instant| ((at.seconds() - times[0].seconds()) * RATE).round() as usize;
     let marks = times.map(frame);
-    (1..=LONGEST).contains(&marks[4]).then_some(marks)
+    (marks[4] > 0).then_some(marks)
 }
 
-/// Returns an expression as numbers of channels; `None` if its recording shows no face and no head.
+/// Returns an expression as numbers of channels; `None` if its recording shows no face and no head. One that is too
+/// long to be compared has no numbers.
 pub(crate) fn of_expression(
     connection: &Connection,
     it: &Expression,
@@ -249,6 +305,17 @@ pub(crate) fn of_expression(
     let Some(marks) = cut(&it.milestones) else {
         return Ok(None);
     };
+    let performance = |columns: Vec<Option<Vec<f64>>>| Performance {
+        expression: it.clone(),
+        address,
+        name: name.to_owned(),
+        columns,
+        marks,
+        seconds: it.milestones.span().seconds(),
+    };
+    if marks[4] > LONGEST {
+        return Ok(Some(performance(vec![None; channels.len()])));
+    }
     let (start, frames) = (it.milestones.times()[0], marks[4]);
     let moments: Vec<Instant> = (0..frames)
         .map(|n| Instant::from_seconds(start.seconds() + n as f64 / RATE))
@@ -256,18 +323,13 @@ pub(crate) fn of_expression(
     let Some(numbers) = numbers(connection, it.recording, &moments, channels, fits)? else {
         return Ok(None);
     };
-    Ok(Some(Performance {
-        expression: it.clone(),
-        address,
-        name: name.to_owned(),
-        columns: numbers,
-        marks,
-        seconds: it.milestones.span().seconds(),
-    }))
+    let shown = |column: &Vec<f64>| column.iter().any(|it| it.is_finite());
+    let columns = numbers.into_iter().map(|column| column.filter(shown));
+    Ok(Some(performance(columns.collect())))
 }
 
 /// Returns numbers of channels of a recording at moments of its clock: degrees for head and trunk, the face's own
-/// numbers otherwise.
+/// numbers otherwise. Where the capture measured nothing they are no number.
 pub(crate) fn numbers(
     connection: &Connection,
     recording: i64,
@@ -298,14 +360,26 @@ pub(crate) fn numbers(
     let seen: Option<Vec<_>> = captured
         .as_ref()
         .map(|face| moments.iter().map(|at| face.at(*at)).collect());
+    let measured: Vec<bool> = match &captured {
+        Some(face) => moments.iter().map(|at| face.is_measured_at(*at)).collect(),
+        None => Vec::new(),
+    };
+    let unmeasured = |frame: usize, number: f64| match measured.get(frame) {
+        Some(false) => f64::NAN,
+        _ => number,
+    };
     if let Some(face) = &captured {
         turned.head = turned.head.or_else(|| {
-            let seen = seen.as_ref()?;
-            seen.iter().map(|(_, head)| *head).collect()
+            let seen = seen.as_ref()?.iter().enumerate();
+            seen.map(|(frame, (_, head))| Some((*head)?.map(|turn| unmeasured(frame, turn))))
+                .collect()
         });
-        turned.trunk = turned
-            .trunk
-            .or_else(|| moments.iter().map(|at| face.trunk_at(*at)).collect());
+        turned.trunk = turned.trunk.or_else(|| {
+            let trunk = moments.iter().map(|at| face.trunk_at(*at)).enumerate();
+            trunk
+                .map(|(frame, turn)| Some(turn?.map(|turn| unmeasured(frame, turn))))
+                .collect()
+        });
     }
     let shows = turned.head.is_some() || turned.trunk.is_some();
     if !shows && seen.is_none() && made.is_none() {
@@ -324,7 +398,8 @@ pub(crate) fn numbers(
         match (&captured, &seen, &made) {
             (Some(face), Some(seen), _) if face.view.known[number] => {
                 let numbers = seen.iter().map(|(face, _)| face.numbers()[number]);
-                Some(numbers.collect())
+                let numbers = numbers.enumerate();
+                Some(numbers.map(|(frame, it)| unmeasured(frame, it)).collect())
             }
             (None, _, Some(made)) => Some(made.iter().map(|face| face.numbers()[number]).collect()),
             _ => None,

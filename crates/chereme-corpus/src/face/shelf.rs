@@ -16,8 +16,8 @@ use super::expressions::Expression;
 use super::performances::{Performance, cut};
 use crate::db::search as files;
 
-/// The first bytes of the cache; the last of them is the version.
-const MARK: &[u8; 6] = b"faces\x01";
+/// The first bytes of the cache; the last of them is the version, 2 since numbers can be missing.
+const MARK: &[u8; 6] = b"faces\x02";
 /// The fewest performances that are cached; fewer are read from their recordings each time.
 const MANY: usize = 256;
 /// The largest number of numbers in a cache.
@@ -58,7 +58,8 @@ pub(super) fn write(
 }
 
 fn encode(all: &[Performance], channels: usize, newest: i64) -> Option<Vec<u8>> {
-    let numbers: usize = all.iter().map(|it| it.marks[4]).sum();
+    let shown = |it: &&Performance| it.columns.iter().any(Option::is_some);
+    let numbers: usize = all.iter().filter(shown).map(|it| it.marks[4]).sum();
     if numbers.checked_mul(channels)? > MOST {
         return None;
     }

@@ -44,6 +44,9 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
             },
         },
     };
+    for track in &new {
+        report.findings.extend(gaps(&track.track));
+    }
     let mut ids = Vec::with_capacity(new.len());
     for mut track in new {
         track.offset_us = track.offset_us.saturating_add(job.options.offset_us);
@@ -72,6 +75,24 @@ pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileRepo
     report.recording = Some(recordings::recording(job.connection, recording)?.name);
     report.understood.tracks = Some(ids.iter().map(shown).collect::<Result<_>>()?);
     Ok(recording)
+}
+
+/// Returns a finding about the gaps between rows of curves; `None` without any.
+fn gaps(track: &Track) -> Option<ReportFinding> {
+    let Track::Curves(curves) = track else {
+        return None;
+    };
+    let gaps = curves.times().gaps(curves.frames());
+    let longest = gaps.iter().max_by_key(|gap| gap.micros())?;
+    let total = gaps.iter().map(|gap| gap.seconds()).sum::<f64>();
+    Some(ReportFinding::warning(
+        format!(
+            "gaps in its rows: {}, {total:.3} s in all, the longest after {:.3} s; nothing counts as measured there",
+            gaps.len(),
+            longest.start().seconds()
+        ),
+        "export it again if the gaps are not in the recording itself",
+    ))
 }
 
 /// The largest ratio of lengths of two tracks in a folder that are taken for one take.

@@ -31,6 +31,22 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "ses images n’ont pas de temps ; {n} par seconde sont prises",
     ),
     (
+        "its timestamps are those of a series of pictures, at most 1 ms apart; {n} frames a second are taken",
+        "ses horodatages sont ceux d’une suite d’images fixes, à 1 ms d’écart au plus ; {n} images par seconde sont prises",
+    ),
+    (
+        "write the seconds of each row into the column \"timestamp\"",
+        "écrivez les secondes de chaque ligne dans la colonne \"timestamp\"",
+    ),
+    (
+        "gaps in its rows: {n}, {seconds} s in all, the longest after {at} s; nothing counts as measured there",
+        "trous dans ses lignes : {n}, {seconds} s en tout, le plus long après {at} s ; rien n’y compte comme mesuré",
+    ),
+    (
+        "export it again if the gaps are not in the recording itself",
+        "exportez-le de nouveau si les trous ne sont pas dans l’enregistrement lui-même",
+    ),
+    (
         "write \"timestampMs\" into each frame",
         "écrivez \"timestampMs\" dans chaque image",
     ),

@@ -345,6 +345,22 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "annotez wh, yn, negation ou topic sur un acteur appelé \"function\" ; voyez `chereme milestones --help`",
     ),
     (
+        "{address} lasts {seconds} s, and expressions of more than {most} s are not compared",
+        "{address} dure {seconds} s, et les expressions de plus de {most} s ne sont pas comparées",
+    ),
+    (
+        "annotate shorter expressions on the tier \"function\"",
+        "annotez des expressions plus courtes sur l’acteur « function »",
+    ),
+    (
+        "{address}: nothing was measured in {seconds} s of its {length} s",
+        "{address} : rien n’a été mesuré pendant {seconds} s de ses {length} s",
+    ),
+    (
+        "compare an expression that its capture covers without gaps",
+        "comparez une expression que sa capture couvre sans trous",
+    ),
+    (
         "{address} does not show {name}",
         "{address} ne montre pas {name}",
     ),
