@@ -28,6 +28,16 @@ pub(crate) struct Turns {
 
 /// Returns the rotations of head and trunk in each frame, relative to the skeleton's rest posture.
 pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Turns {
+    let (heads, trunks) = in_frames(clip, anatomy);
+    Turns {
+        head: moving(heads),
+        trunk: moving(trunks),
+    }
+}
+
+/// Returns the rotations of head and trunk in each frame of a part of a movement, also those that never change; none of
+/// a part that the skeleton lacks.
+pub(crate) fn in_frames(clip: &Clip, anatomy: &Anatomy) -> (Vec<[f64; 3]>, Vec<[f64; 3]>) {
     let head = anatomy.joint(Part::Head).or(anatomy.joint(Part::Neck));
     let chest = anatomy.joint(Part::Chest).or(anatomy.joint(Part::Spine));
     let hips = anatomy.joint(Part::Hips);
@@ -46,14 +56,11 @@ pub(crate) fn of_clip(clip: &Clip, anatomy: &Anatomy) -> Turns {
                 .map(|own| against(own, hips)),
         );
     }
-    Turns {
-        head: moving(heads),
-        trunk: moving(trunks),
-    }
+    (heads, trunks)
 }
 
 /// Returns rotations that change; those of a part that was not captured are constant.
-fn moving(all: Vec<[f64; 3]>) -> Option<Vec<[f64; 3]>> {
+pub(crate) fn moving(all: Vec<[f64; 3]>) -> Option<Vec<[f64; 3]>> {
     let first = *all.first()?;
     let away = |turn: &[f64; 3]| turn.iter().zip(first).any(|(a, b)| (a - b).abs() > STILL);
     all.iter().any(away).then_some(all)

@@ -4,6 +4,7 @@
 //! |---|---|
 //! | [`stage`] | a recording that has only a face, as movement of the program's own body |
 //! | [`captured`] | the captured face of a recording: channels of a face system, or points on film |
+//! | [`course`] | the mean of some channels over time, for conditions of a search |
 //! | [`fit`] | the weights of a mapping, fitted to a signer |
 //! | [`head`] | rotations of head and trunk, from a skeleton or from the face's capture |
 //! | [`expressions`] | expressions of a function, with their milestones |
@@ -17,6 +18,7 @@
 
 mod captured;
 mod choose;
+mod course;
 #[cfg(test)]
 #[path = "tests/derived.rs"]
 mod derived_tests;
@@ -46,13 +48,14 @@ use crate::error::{Error, Result};
 
 pub(crate) use captured::{captured, captured_with};
 pub use choose::{Choice, ChooseOptions, FaceScore, Rank, Ranked, ScoredChannel};
+pub(crate) use course::Course;
 pub(crate) use expressions::at as expression_at;
 pub(crate) use fit::Fits;
 pub use fit::{FaceFit, FittedNumber};
 pub use milestones::{Expressions, FoundExpression, MilestoneOptions};
 pub use onsets::{OnsetRow, Onsets, Quartiles};
+pub(crate) use performances::Pool;
 pub use performances::{CHANNELS, FaceChannel};
-pub(crate) use performances::{Pool, numbers as numbers_of};
 pub(crate) use propose::FaceCurves;
 pub use propose::FaceProposals;
 

@@ -278,3 +278,124 @@ fn the_face_stands_next_to_the_signer_in_sheets_and_animations_by_option() {
     assert!(width(&draw("b.gif", true)) >= width(&draw("a.gif", false)) + 55);
     assert_ne!(draw("b.mp4", true), draw("a.mp4", false));
 }
+
+/// Writes a capture at 60 rows a second of `seconds`, without rows in `gap`, whose jaw is open by 0.9 in `open`.
+fn write_jaw(path: &Path, seconds: f64, gap: (f64, f64), open: (f64, f64)) {
+    let mut text = String::from("time [s],jaw_open,brow_raise_right\n");
+    for frame in 0..(seconds * 60.0) as usize {
+        let at = frame as f64 / 60.0;
+        if at > gap.0 && at < gap.1 {
+            continue;
+        }
+        let jaw = if at > open.0 && at < open.1 { 0.9 } else { 0.0 };
+        writeln!(text, "{at:.6},{jaw},0").expect("text");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+#[test]
+fn gaps_and_the_time_after_a_capture_show_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let path = folder.path().join("F.csv");
+    write_jaw(&path, 4.0, (1.05, 1.995), (0.98, 2.04));
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let report = corpus
+        .import(&[path], &ImportOptions::default(), progress)
+        .expect("imported");
+    let findings = &report.files[0].findings;
+    let warned =
+        |it: &str| it.starts_with("gaps in its rows: 1, 0.950 s in all, the longest after 1.050 s");
+    assert!(
+        findings.iter().any(|it| warned(&it.message)),
+        "{findings:?}"
+    );
+    let signs = [
+        ("BEFORE", 500, 1_020),
+        ("INGAP", 1_300, 1_700),
+        ("AROUND", 900, 2_200),
+        ("LATER", 3_000, 3_500),
+    ];
+    for (n, sign) in signs.into_iter().enumerate() {
+        add(
+            &mut corpus,
+            "F",
+            &format!("Gloss {n}"),
+            TierRole::Gloss,
+            &[sign],
+        );
+    }
+    let mut found = |query: &str| -> Vec<String> {
+        let answer = corpus.search(query, &SearchOptions::default());
+        let hits = answer.expect("an answer").hits;
+        let mut names: Vec<String> = hits.into_iter().map(|hit| hit.gloss).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(found("nonmanual.jaw_open>0.5"), ["AROUND", "BEFORE"]);
+    assert_eq!(found("nonmanual.jaw_open>0.5 for 0.2s"), [""; 0]);
+    assert_eq!(
+        found("nonmanual.jaw_open<0.5"),
+        ["AROUND", "BEFORE", "LATER"]
+    );
+    assert_eq!(found("not nonmanual.jaw_open<2"), ["INGAP"]);
+    let found = corpus.propose_nonmanuals(&recording("F"), false, progress);
+    let proposals = found.expect("looked at").proposals;
+    let inside = |it: &&crate::Proposal| it.start_us < 1_900_000 && it.end_us > 1_100_000;
+    assert_eq!(proposals.iter().find(inside), None);
+}
+
+#[test]
+fn peaks_of_one_row_and_late_ones_are_found_and_runs_count_within_the_token() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    // A row every 10 s of three hours, and one peak between two points of a grid of 50 a second.
+    let path = folder.path().join("L.csv");
+    let mut text = String::from("time [s],jaw_open,brow_raise_right\n");
+    for row in 0..1_080 {
+        let jaw = if row % 100 == 50 { 0.9 } else { 0.0 };
+        writeln!(text, "{},{jaw},0", row * 10).expect("text");
+    }
+    std::fs::write(&path, text).expect("written");
+    import(&mut corpus, &path);
+    let path = folder.path().join("P.csv");
+    write_jaw(&path, 4.0, (9.0, 9.0), (0.51, 0.52));
+    import(&mut corpus, &path);
+    let path = folder.path().join("R.csv");
+    write_jaw(&path, 4.0, (9.0, 9.0), (0.99, 1.99));
+    import(&mut corpus, &path);
+    for (name, sign) in [
+        ("L", ("EARLY", 499_000, 501_000)),
+        ("L", ("LATE", 10_499_000, 10_501_000)),
+        ("P", ("PEAK", 400, 600)),
+        ("R", ("EDGE", 1_900, 2_900)),
+    ] {
+        add(
+            &mut corpus,
+            name,
+            &format!("Gloss {}", sign.0),
+            TierRole::Gloss,
+            &[sign],
+        );
+    }
+    let mut found = |query: &str| -> Vec<String> {
+        let answer = corpus.search(query, &SearchOptions::default());
+        let hits = answer.expect("an answer").hits;
+        let mut names: Vec<String> = hits.into_iter().map(|hit| hit.gloss).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(
+        found("nonmanual.jaw_open>0.8"),
+        ["EARLY", "EDGE", "LATE", "PEAK"]
+    );
+    assert_eq!(
+        found("nonmanual.jaw_open>0.7 for 0.08s recording=R"),
+        ["EDGE"]
+    );
+    assert_eq!(
+        found("nonmanual.jaw_open>0.7 for 0.5s recording=R"),
+        [""; 0]
+    );
+}
