@@ -11,6 +11,12 @@ use crate::tracks::rate_of;
 /// The largest angle in radians; greater numbers are degrees, as no head turns so far.
 const MOST_RADIANS: f64 = 3.2;
 
+/// The longest usual step of timestamps, in seconds, that are no times: OpenFace writes milliseconds or 0 for a series
+/// of pictures.
+const COUNTED: f64 = 0.001_000_1;
+/// Frames per second if the file gives no times.
+const USUAL_RATE: f64 = 30.0;
+
 /// The rows of a table with their lines.
 struct Table {
     header: Vec<String>,
@@ -162,8 +168,40 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
     let Some(at) = find("timestamp") else {
         return Err(Error::Unknown);
     };
-    channels.clock = Clock::Seconds(seconds(&table, at, 1.0)?);
+    let times = seconds(&table, at, 1.0)?;
+    channels.clock = match is_counted(&times) {
+        false => Clock::Seconds(times),
+        true => {
+            findings.push(
+                Finding::warning(
+                    None,
+                    format!(
+                        "its timestamps are those of a series of pictures, at most 1 ms apart; {USUAL_RATE} frames a second are taken"
+                    ),
+                )
+                .with_remedy("write the seconds of each row into the column \"timestamp\""),
+            );
+            let numbers = match find("frame") {
+                Some(at) => seconds(&table, at, 1.0 / USUAL_RATE)?,
+                None => Vec::new(),
+            };
+            match rate_of(USUAL_RATE) {
+                Some(rate) if !numbers.is_sorted_by(|a, b| a < b) || numbers.is_empty() => {
+                    Clock::Rate(rate)
+                }
+                _ => Clock::Seconds(numbers.iter().map(|it| it - numbers[0]).collect()),
+            }
+        }
+    };
     Ok(channels)
+}
+
+/// Returns whether timestamps count rows instead of giving their times.
+fn is_counted(times: &[f64]) -> bool {
+    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual = steps.get(steps.len() / 2);
+    usual.is_some_and(|usual| (0.0..=COUNTED).contains(usual))
 }
 
 /// Returns a column as seconds, each cell worth `unit`.

@@ -168,6 +168,34 @@ fn faces_of_others_are_read_whole() {
     assert!((decoded.span().seconds() - 3.0).abs() < 1.0);
     let open_face = open("cosanlab-py-feat/OpenFace_Test.csv");
     assert_eq!((open_face.curves().len(), open_face.frames()), (431, 100));
+    let rate = open_face.times().rate().map(|rate| rate.frames());
+    assert_eq!(rate, Some(30), "it is a series of pictures, 1 ms apart");
+}
+
+#[test]
+fn timestamps_that_count_pictures_are_no_times() {
+    // Timestamps, numbers of frames, and the rate and duration of what is read.
+    for (times, numbers, rate, last) in [
+        (["0", "0.001", "0.002"], [1, 2, 3], Some(30), 2.0 / 30.0),
+        (["0", "0", "0"], [1, 2, 3], Some(30), 2.0 / 30.0),
+        (["0", "0.001", "0.002"], [1, 2, 9], None, 8.0 / 30.0),
+        (["0", "0.001", "0.002"], [1, 1, 1], Some(30), 2.0 / 30.0),
+        (["0", "0.002", "0.004"], [1, 2, 3], Some(500), 0.004),
+    ] {
+        let mut text = "frame, timestamp, confidence, success, AU01_r\n".to_owned();
+        for (time, number) in times.iter().zip(numbers) {
+            text.push_str(&format!("{number}, {time}, 0.9, 1, 0.1\n"));
+        }
+        let (curves, _, findings) = curves(&text);
+        let found = curves.times().rate().map(|rate| rate.frames());
+        assert_eq!(found, rate, "{times:?} {numbers:?}");
+        let end = curves.times().instant(2).seconds();
+        assert!((end - last).abs() < 2e-6, "{times:?} {numbers:?}: {end}");
+        let warned = findings
+            .iter()
+            .any(|it| it.message.contains("a series of pictures"));
+        assert_eq!(warned, rate != Some(500), "{findings:?}");
+    }
 }
 
 /// Returns packets of Live Link Face as the program LLV records them.
