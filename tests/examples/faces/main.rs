@@ -391,7 +391,7 @@ fn time(corpus: &Corpus, tables: &mut Tables) -> Result<(), Failure> {
             row.channel.to_owned(),
             row.n.to_string(),
             said(&row.onset_s),
-            said(&row.offset_s),
+            row.offset_s.as_ref().map(said).unwrap_or_default(),
         ]
     });
     tables.add(

@@ -12,12 +12,12 @@ use crate::words::Words;
 /// Measure when non-manuals begin and end relative to the signs that they span, for each function
 ///
 /// A channel of the face or head begins when it is halfway from its value half a second before the expression to its
-/// most extreme value over the signs, and ends when it is halfway back. Onsets are in seconds after the start of the
-/// first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of
-/// `milestones`.
+/// most extreme value over the signs, and ends when it is halfway back; one that is not back half a second after M5 has
+/// no end. Onsets are in seconds after the start of the first sign (negative: before it), and ends in seconds after the
+/// end of the last sign. The functions are those of `milestones`.
 ///
-/// `--json` gives "expressions", "without_face" and "rows", each with "function", "channel", "n", "onset_s" and
-/// "offset_s" ("q1", "median", "q3").
+/// `--json` gives "expressions", "without_face", "with_gaps", "too_long" and "rows", each with "function", "channel",
+/// "n", "onset_s" ("q1", "median", "q3"), "ends" and "offset_s", which is null without ends.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -50,12 +50,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .rows
         .iter()
         .map(|it| {
-            let (onset, offset) = (text(&it.onset_s), text(&it.offset_s));
+            let (onset, offset) = (
+                text(&it.onset_s),
+                it.offset_s.as_ref().map(text).unwrap_or_default(),
+            );
             vec![
                 it.function.to_string(),
                 it.channel.to_owned(),
                 it.n.to_string(),
                 onset,
+                it.ends.to_string(),
                 offset,
             ]
         })
@@ -65,6 +69,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         "channel",
         "n",
         "begins: median (quartiles)",
+        "n of ends",
         "ends: median (quartiles)",
     ];
     output.table(&titles, &rows)?;
@@ -72,6 +77,18 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         "expressions: {}; without a face: {}",
         found.expressions, found.without_face
     ))?;
+    if found.with_gaps > 0 {
+        output.line(format!(
+            "expressions during which nothing was measured at times: {}",
+            found.with_gaps
+        ))?;
+    }
+    if found.too_long > 0 {
+        output.line(format!(
+            "expressions of more than half an hour, which were not examined: {}; annotate shorter ones",
+            found.too_long
+        ))?;
+    }
     if let Some(path) = &args.draw {
         corpus.draw_onsets(&found, path, args.force)?;
         output.line(format!("drew {}", path.display()))?;
@@ -87,19 +104,30 @@ pub(super) const WORDS: Words = Words {
             "Mesurer quand les éléments non manuels commencent et finissent par rapport aux signes qu’ils couvrent, pour chaque fonction",
         ),
         (
-            "A channel of the face or head begins when it is halfway from its value half a second before the expression to its most extreme value over the signs, and ends when it is halfway back. Onsets are in seconds after the start of the first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of `milestones`.",
-            "Un canal du visage ou de la tête commence quand il est à mi-chemin entre sa valeur une demi-seconde avant l’expression et sa valeur la plus extrême pendant les signes, et finit quand il est revenu à mi-chemin. Les débuts sont en secondes après le début du premier signe (négatif : avant lui), les fins en secondes après la fin du dernier. Les fonctions sont celles de `milestones`.",
+            "A channel of the face or head begins when it is halfway from its value half a second before the expression to its most extreme value over the signs, and ends when it is halfway back; one that is not back half a second after M5 has no end. Onsets are in seconds after the start of the first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of `milestones`.",
+            "Un canal du visage ou de la tête commence quand il est à mi-chemin entre sa valeur une demi-seconde avant l’expression et sa valeur la plus extrême pendant les signes, et finit quand il est revenu à mi-chemin ; s’il n’est pas revenu une demi-seconde après M5, il n’a pas de fin. Les débuts sont en secondes après le début du premier signe (négatif : avant lui), les fins en secondes après la fin du dernier. Les fonctions sont celles de `milestones`.",
         ),
         (
-            "`--json` gives \"expressions\", \"without_face\" and \"rows\", each with \"function\", \"channel\", \"n\", \"onset_s\" and \"offset_s\" (\"q1\", \"median\", \"q3\").",
-            "`--json` donne \"expressions\", \"without_face\" et \"rows\", chacune avec \"function\", \"channel\", \"n\", \"onset_s\" et \"offset_s\" (\"q1\", \"median\", \"q3\").",
+            "`--json` gives \"expressions\", \"without_face\", \"with_gaps\", \"too_long\" and \"rows\", each with \"function\", \"channel\", \"n\", \"onset_s\" (\"q1\", \"median\", \"q3\"), \"ends\" and \"offset_s\", which is null without ends.",
+            "`--json` donne \"expressions\", \"without_face\", \"with_gaps\", \"too_long\" et \"rows\", chacune avec \"function\", \"channel\", \"n\", \"onset_s\" (\"q1\", \"median\", \"q3\"), \"ends\" et \"offset_s\", qui est null sans fins.",
         ),
     ],
-    lines: &[(
-        "expressions: {n}; without a face: {none}",
-        "expressions : {n} ; sans visage : {none}",
-    )],
+    lines: &[
+        (
+            "expressions: {n}; without a face: {none}",
+            "expressions : {n} ; sans visage : {none}",
+        ),
+        (
+            "expressions during which nothing was measured at times: {n}",
+            "expressions pendant lesquelles rien n’a été mesuré par moments : {n}",
+        ),
+        (
+            "expressions of more than half an hour, which were not examined: {n}; annotate shorter ones",
+            "expressions de plus d’une demi-heure, qui n’ont pas été examinées : {n} ; annotez-en de plus courtes",
+        ),
+    ],
     titles: &[
+        ("n of ends", "n des fins"),
         ("begins: median (quartiles)", "début : médiane (quartiles)"),
         ("ends: median (quartiles)", "fin : médiane (quartiles)"),
     ],

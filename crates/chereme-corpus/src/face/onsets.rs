@@ -21,8 +21,8 @@ use crate::progress::{Progress, Step, Unit};
 const RATE: f64 = 60.0;
 /// The smallest change from its start for which a channel counts as active in an expression, in the channel's unit.
 const LEAST: f64 = 0.8;
-/// The longest expressions that are measured, in seconds.
-const LONGEST: f64 = 120.0;
+/// The longest expressions that are measured, in seconds; others are counted.
+const LONGEST: f64 = 1_800.0;
 
 /// Begin and end of non-manuals, for each function and channel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -31,6 +31,10 @@ pub struct Onsets {
     pub expressions: u64,
     /// The number of expressions without a face.
     pub without_face: u64,
+    /// The number of expressions during whose signs nothing was measured at times.
+    pub with_gaps: u64,
+    /// The number of expressions of more than half an hour, which were not examined.
+    pub too_long: u64,
     /// The statistics, by function and channel.
     pub rows: Vec<OnsetRow>,
 }
@@ -46,8 +50,10 @@ pub struct OnsetRow {
     pub n: u64,
     /// Begin minus the begin of the first sign, in seconds; below 0 the channel begins before it.
     pub onset_s: Quartiles,
-    /// End minus the end of the last sign, in seconds; above 0 the channel ends after it.
-    pub offset_s: Quartiles,
+    /// The number of these expressions in which the channel comes back by half a second after M5.
+    pub ends: u64,
+    /// End minus the end of the last sign, in seconds; above 0 the channel ends after it. `None` if it never comes back.
+    pub offset_s: Option<Quartiles>,
 }
 
 /// The quartiles of some numbers (type 7: linear between order statistics).
@@ -83,7 +89,7 @@ impl Corpus {
     /// Returns begin and end of non-manuals relative to the manual signs that they span, for each function and channel.
     ///
     /// A channel begins when it has covered half of the distance from its value half a second before the expression to
-    /// its extreme value in the body, and ends when it comes back to half.
+    /// its extreme value in the body, and ends when it comes back to half. A channel that does not come back has no end.
     ///
     /// # Errors
     /// Fails if there are no expressions, or `progress` stops the work.
@@ -93,10 +99,12 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<Onsets> {
         let connection = self.store.read();
-        let mut found: BTreeMap<(Function, usize), Vec<(f64, f64)>> = BTreeMap::new();
+        let mut found: BTreeMap<(Function, usize), Vec<(f64, Option<f64>)>> = BTreeMap::new();
         let mut report = Onsets {
             expressions: 0,
             without_face: 0,
+            with_gaps: 0,
+            too_long: 0,
             rows: Vec::new(),
         };
         let channels: Vec<usize> = (0..CHANNELS.len()).collect();
@@ -114,6 +122,7 @@ impl Corpus {
                 let from = marks[0].shifted(-EDGE).seconds();
                 let to = marks[4].shifted(EDGE).seconds();
                 if to - from > LONGEST {
+                    report.too_long += 1;
                     continue;
                 }
                 report.expressions += 1;
@@ -125,31 +134,37 @@ impl Corpus {
                     continue;
                 };
                 let frame = |at: Instant| ((at.seconds() - from) * RATE).round() as usize;
+                let signs = frame(marks[1])..frame(marks[3]);
+                let has_gap = |column: &Vec<f64>| {
+                    let own = column.get(signs.clone());
+                    own.is_none_or(|own| own.iter().any(|it| it.is_nan()))
+                };
+                report.with_gaps += u64::from(columns.iter().flatten().any(has_gap));
                 for (channel, column) in columns.iter().enumerate() {
                     let Some(column) = column else { continue };
                     let unit = CHANNELS[channel].counts_as_one;
-                    let Some((on, off)) = reach(column, frame(marks[1]), frame(marks[3]), unit)
-                    else {
+                    let Some((on, off)) = reach(column, signs.start, signs.end, unit) else {
                         continue;
                     };
                     let seconds = |frame: usize| from + frame as f64 / RATE;
                     let lags = (
                         seconds(on) - marks[1].seconds(),
-                        seconds(off) - marks[3].seconds(),
+                        off.map(|off| seconds(off) - marks[3].seconds()),
                     );
                     let key = (it.function.clone(), channel);
                     found.entry(key).or_default().push(lags);
                 }
             }
         }
-        if report.expressions == 0 {
+        if report.expressions + report.too_long == 0 {
             return Err(Error::wrong("there are no expressions with a function")
                 .advise(Remedy::command("annotate wh, yn, negation or topic on a tier called \"function\"; see `chereme milestones --help`")));
         }
         for ((function, channel), lags) in found {
             let n = lags.len() as u64;
-            let (on, off): (Vec<f64>, Vec<f64>) = lags.into_iter().unzip();
-            let (Some(onset_s), Some(offset_s)) = (Quartiles::of(on), Quartiles::of(off)) else {
+            let (on, off): (Vec<f64>, Vec<Option<f64>>) = lags.into_iter().unzip();
+            let off: Vec<f64> = off.into_iter().flatten().collect();
+            let Some(onset_s) = Quartiles::of(on) else {
                 continue;
             };
             report.rows.push(OnsetRow {
@@ -157,7 +172,8 @@ impl Corpus {
                 channel: CHANNELS[channel].name,
                 n,
                 onset_s,
-                offset_s,
+                ends: off.len() as u64,
+                offset_s: Quartiles::of(off),
             });
         }
         Ok(report)
@@ -174,28 +190,32 @@ impl Corpus {
 }
 
 /// Returns the frames at which a channel has covered half of the distance to its extreme value in the body, and at
-/// which it comes back.
-fn reach(column: &[f64], first: usize, last: usize, unit: f64) -> Option<(usize, usize)> {
-    let rest = *column.first()?;
+/// which it comes back, if it does. `None` if it is not active, or was not measured where it begins.
+fn reach(column: &[f64], first: usize, last: usize, unit: f64) -> Option<(usize, Option<usize>)> {
+    let mut before = column.get(..first)?.iter().copied();
+    let rest = before.find(|it| it.is_finite())?;
     let body = column.get(first..last.min(column.len()))?;
     let away = |value: f64| (value - rest).abs();
     let (at, most) = body
         .iter()
         .enumerate()
+        .filter(|(_, it)| it.is_finite())
         .max_by(|(_, a), (_, b)| away(**a).total_cmp(&away(**b)))?;
     if away(*most) < LEAST * unit {
         return None;
     }
     let (peak, half) = (first + at, away(*most) / 2.0);
     let side = (most - rest).signum();
-    let out = |frame: &usize| (column[*frame] - rest) * side < half;
-    let on = (0..peak).rev().find(out).map_or(0, |frame| frame + 1);
-    let off = (peak..column.len()).find(out).unwrap_or(column.len());
+    // The first frame without a number is the last one that is looked at.
+    let out = |frame: &usize| column[*frame].is_nan() || (column[*frame] - rest) * side < half;
+    let measured = |frame: &usize| !column[*frame].is_nan();
+    let on = (0..peak).rev().find(out).filter(measured)? + 1;
+    let off = (peak..column.len()).find(out).filter(measured);
     Some((on, off))
 }
 
 /// Onset or offset of a row.
-type Which = fn(&OnsetRow) -> Quartiles;
+type Which = fn(&OnsetRow) -> Option<Quartiles>;
 
 fn svg(onsets: &Onsets) -> String {
     const ROW: usize = 22;
@@ -203,7 +223,8 @@ fn svg(onsets: &Onsets) -> String {
     const WIDTH: f64 = 300.0;
     const GAP: f64 = 40.0;
     let spread = |of: Which| {
-        let ends = onsets.rows.iter().flat_map(|row| [of(row).q1, of(row).q3]);
+        let drawn = onsets.rows.iter().filter_map(of);
+        let ends = drawn.flat_map(|it| [it.q1, it.q3]);
         ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| {
             (low.min(end), high.max(end))
         })
@@ -215,7 +236,11 @@ fn svg(onsets: &Onsets) -> String {
          <rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
     );
     let parts: [(&str, Which, f64); 2] = [
-        ("begin against the first sign [s]", |row| row.onset_s, NAMES),
+        (
+            "begin against the first sign [s]",
+            |row| Some(row.onset_s),
+            NAMES,
+        ),
         (
             "end against the last sign [s]",
             |row| row.offset_s,
@@ -247,7 +272,7 @@ fn svg(onsets: &Onsets) -> String {
         }
         for (n, row) in onsets.rows.iter().enumerate() {
             let y = 36 + n * ROW;
-            let it = of(row);
+            let Some(it) = of(row) else { continue };
             let (from, to) = (x(it.q1), x(it.q3));
             let _ = writeln!(
                 text,
@@ -289,9 +314,31 @@ mod tests {
                     .clamp(0.0, 1.0)
             })
             .collect();
-        assert_eq!(reach(&column, 30, 60, 0.25), Some((25, 71)));
+        assert_eq!(reach(&column, 30, 60, 0.25), Some((25, Some(71))));
         let down: Vec<f64> = column.iter().map(|it| -it).collect();
-        assert_eq!(reach(&down, 30, 60, 0.25), Some((25, 71)));
+        assert_eq!(reach(&down, 30, 60, 0.25), Some((25, Some(71))));
+        assert_eq!(
+            reach(&column[..70], 30, 60, 0.25),
+            Some((25, None)),
+            "it never comes back"
+        );
+        let without = |gap: std::ops::Range<usize>| {
+            let mut column = column.clone();
+            column[gap].fill(f64::NAN);
+            reach(&column, 30, 60, 0.25)
+        };
+        assert_eq!(
+            without(0..10),
+            Some((25, Some(71))),
+            "the rest is the first number"
+        );
+        assert_eq!(without(0..30), None, "there is no rest");
+        assert_eq!(without(20..28), None, "its begin was not measured");
+        assert_eq!(
+            without(65..75),
+            Some((25, None)),
+            "its end was not measured"
+        );
         let little: Vec<f64> = column.iter().map(|it| it * 0.1).collect();
         assert_eq!(reach(&little, 30, 60, 0.25), None);
         assert_eq!(

@@ -562,7 +562,9 @@ fn onsets_are_measured_against_the_signs() {
     assert_eq!((row.n, found.without_face), (3, 0));
     // The brows are half raised at 0.65 s instead of 0.7 s, and half lowered at 2.45 s instead of 2.3 s.
     assert!((row.onset_s.median + 0.05).abs() < 0.02, "{row:?}");
-    assert!((row.offset_s.median - 0.15).abs() < 0.02, "{row:?}");
+    let offset = row.offset_s.expect("an end");
+    assert!((offset.median - 0.15).abs() < 0.02, "{row:?}");
+    assert_eq!((row.ends, found.with_gaps, found.too_long), (3, 0, 0));
     assert!(found.rows.iter().any(|row| row.channel == "head_pitch"));
     assert!(
         case.corpus
@@ -585,6 +587,71 @@ fn onsets_are_measured_against_the_signs() {
     let error = error.expect_err("another kind of picture");
     assert!(error.to_string().contains(".svg"), "{error}");
     assert!(!path.exists(), "nothing is written");
+}
+
+#[test]
+fn expressions_that_are_too_long_or_not_measured_are_skipped_by_name_and_ends_are_counted() {
+    let mut case = case(&[("W1", 1.0, 1.0), ("W2", 0.8, 1.2)]);
+    let folder = case._folder.path().to_owned();
+    let text = std::fs::read_to_string(folder.join("W1.csv")).expect("read");
+    let kept = |line: &&str| {
+        !line.starts_with("1.2") && !line.starts_with("1.3") && !line.starts_with("1.4")
+    };
+    let gap: Vec<&str> = text.lines().filter(kept).collect();
+    std::fs::write(folder.join("GAP.csv"), gap.join("\n")).expect("written");
+    // Brows that never come back.
+    let held = text.lines().take_while(|line| !line.starts_with("2.3"));
+    let held: Vec<&str> = held.collect();
+    std::fs::write(folder.join("HELD.csv"), held.join("\n")).expect("written");
+    let mut long = String::from(
+        "time [s],brow_raise_right,brow_raise_left,brow_squeeze,head_pitch,head_yaw,head_roll\n",
+    );
+    for row in 0..1_600 {
+        let up = if (20..1_520).contains(&row) { 0.9 } else { 0.0 };
+        writeln!(long, "{:.1},{up},{up},0,{up},0,0", f64::from(row) / 10.0).expect("text");
+    }
+    std::fs::write(folder.join("LONG.csv"), long).expect("written");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    for name in ["GAP", "HELD", "LONG"] {
+        let path = folder.join(format!("{name}.csv"));
+        let options = ImportOptions::default();
+        case.corpus
+            .import(&[path], &options, progress)
+            .expect("imported");
+        let signs: &[(&str, i64, i64)] = match name {
+            "LONG" => &[("QUOI", 2_000, 152_000)],
+            "HELD" => &SIGNS[..3],
+            _ => &SIGNS,
+        };
+        add(&mut case.corpus, name, "Gloss", TierRole::Gloss, signs);
+        let until = if name == "LONG" { 152_000 } else { 1_600 };
+        let wh = [("wh-question", 700, until)];
+        add(&mut case.corpus, name, "function", TierRole::Free, &wh);
+    }
+    let found = choose(&case, "W1", &ChooseOptions::default());
+    assert_eq!(found.compared, 2, "{found:?}");
+    let mut skipped: Vec<&str> = found.skipped.iter().map(|(_, why)| &**why).collect();
+    skipped.sort_unstable();
+    assert!(
+        matches!(&skipped[..], [gap, long] if gap.contains("nothing was measured in 0.") && long.contains("lasts 15")),
+        "{skipped:?}"
+    );
+    let found = case.corpus.onsets(None, progress).expect("measured");
+    assert_eq!(
+        (found.expressions, found.with_gaps, found.too_long),
+        (5, 1, 0)
+    );
+    let rows = found.rows.iter();
+    let row = rows
+        .filter(|row| row.channel == "brow_raise_right")
+        .next_back();
+    let row = row.expect("brows");
+    assert_eq!((row.n, row.ends), (4, 3), "{row:?}");
+    assert!(
+        row.offset_s.is_some_and(|it| it.median.abs() < 1.0),
+        "{row:?}"
+    );
 }
 
 #[test]

@@ -117,8 +117,9 @@ pub(super) struct Extent {
 
 impl Extent {
     /// Returns the range that contains every box, and 0.
-    pub(super) fn of(onsets: &Onsets, of: fn(&OnsetRow) -> Quartiles) -> Self {
-        let ends = onsets.rows.iter().flat_map(|row| [of(row).q1, of(row).q3]);
+    pub(super) fn of(onsets: &Onsets, of: fn(&OnsetRow) -> Option<Quartiles>) -> Self {
+        let drawn = onsets.rows.iter().filter_map(of);
+        let ends = drawn.flat_map(|it| [it.q1, it.q3]);
         let (low, high) = ends.fold((-0.1_f64, 0.1_f64), |(low, high), end| {
             (low.min(end), high.max(end))
         });

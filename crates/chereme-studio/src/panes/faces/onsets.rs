@@ -65,14 +65,19 @@ fn table(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
             ui.label(row.channel);
             ui.monospace(row.n.to_string());
             ui.monospace(range_text(&row.onset_s));
-            ui.monospace(range_text(&row.offset_s));
+            // The number of ends stands in front of them if it is another one.
+            let ends = row.offset_s.as_ref().map(range_text).unwrap_or_default();
+            ui.monospace(match row.ends == row.n {
+                true => ends,
+                false => format!("n = {}  {ends}", row.ends),
+            });
             ui.end_row();
         }
     });
 }
 
 /// Selects the begin or the end of a row.
-type Which = fn(&OnsetRow) -> Quartiles;
+type Which = fn(&OnsetRow) -> Option<Quartiles>;
 
 /// Paints a box for each channel: the begin on the left and the end on the right.
 fn plot(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
@@ -90,7 +95,7 @@ fn plot(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
     let (fill_of, line) = (seen.colours().component, seen.colours().accent);
     let wide = ((rect.width() - NAMES - GAP) / 2.0).max(40.0);
     let sides: [(Text, Which, f32); 2] = [
-        (words::BEGIN, |row| row.onset_s, rect.left() + NAMES),
+        (words::BEGIN, |row| Some(row.onset_s), rect.left() + NAMES),
         (
             words::END,
             |row| row.offset_s,
@@ -118,7 +123,7 @@ fn plot(ui: &mut Ui, seen: &PaneInput<'_>, onsets: &Onsets) {
             painter.text(at, side, format!("{seconds:.2}"), font.clone(), weak);
         }
         for (n, row) in onsets.rows.iter().enumerate() {
-            let it = of(row);
+            let Some(it) = of(row) else { continue };
             let y = top + ROW * n as f32 + 2.0;
             let ends = [
                 pos2(x(it.q1), y),
