@@ -6,6 +6,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::Corpus;
+pub use crate::db::info::Amount;
 pub use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::db::{OperationRow, SCHEMA_VERSION, attributes, info as rows};
 use crate::error::Result;
@@ -29,10 +30,12 @@ pub struct Info {
     pub tokens: BTreeMap<String, u64>,
     /// Number of tiers by role.
     pub tiers: BTreeMap<String, u64>,
-    /// Hours of movement.
+    /// Hours of movement of skeletons.
     pub motion_hours: f64,
-    /// Frames of movement.
+    /// Frames of movement of skeletons.
     pub motion_frames: u64,
+    /// Hours and frames by kind of track: `skeleton`, `markers`, `curves`.
+    pub amounts: BTreeMap<String, Amount>,
     /// Sizes of the file's contents in bytes: `motion`, `history`, `search`, `sources`, `rest`.
     pub bytes: BTreeMap<&'static str, u64>,
     /// The signers.
@@ -65,7 +68,8 @@ impl Corpus {
     /// Fails if the database fails.
     pub fn info(&self) -> Result<Info> {
         let connection = self.store.read();
-        let motion = rows::motion(connection)?;
+        let amounts = rows::amounts(connection)?;
+        let motion = amounts.get("skeleton").copied().unwrap_or_default();
         let bytes = rows::bytes(connection)?;
         Ok(Info {
             path: self.path().to_owned(),
@@ -76,8 +80,9 @@ impl Corpus {
             tracks: rows::tracks(connection)?,
             tokens: rows::tokens(connection)?,
             tiers: rows::tiers(connection)?,
-            motion_hours: motion.seconds / 3600.0,
+            motion_hours: motion.hours,
             motion_frames: motion.frames,
+            amounts,
             bytes,
             signers: rows::signers(connection)?,
             inventories: rows::inventories(connection)?,
@@ -117,5 +122,34 @@ mod tests {
         );
         assert!(info.bytes["rest"] > 0 && info.file_bytes >= info.bytes["rest"]);
         assert_eq!((info.motion_frames, info.last_operation), (0, None));
+        assert!(info.amounts.is_empty());
+    }
+
+    #[test]
+    fn markers_and_faces_are_counted_beside_movement() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("face.csv");
+        // The second table has times of its own: 36 s in all.
+        let rows = |times: &[f64]| -> String {
+            let row = |time: &f64| format!("{time},0.5\n");
+            times.iter().map(row).collect()
+        };
+        let even: Vec<f64> = (0..90).map(|frame| f64::from(frame) / 10.0).collect();
+        let head = "time [s],jaw_open\n";
+        std::fs::write(&path, format!("{head}{}", rows(&even))).expect("written");
+        let other = folder.path().join("other.csv");
+        std::fs::write(&other, format!("{head}{}", rows(&[0.0, 8.0, 27.0]))).expect("written");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = crate::unheard;
+        let progress = &mut crate::Progress::new(&mut hear);
+        let report = corpus.import(&[path, other], &crate::ImportOptions::default(), progress);
+        report.expect("imported");
+        let info = corpus.info().expect("info");
+        assert_eq!((info.motion_frames, info.motion_hours), (0, 0.0));
+        let kinds: Vec<&str> = info.amounts.keys().map(String::as_str).collect();
+        assert_eq!(kinds, ["curves"]);
+        let curves = info.amounts["curves"];
+        assert_eq!(curves.frames, 93);
+        assert!((curves.hours * 3600.0 - 55.0).abs() < 1e-3, "{curves:?}");
     }
 }

@@ -136,7 +136,7 @@ pub use import::{
     JointRole, MovementRead, Outcome, OwnEdit, OwnEdits, ReportFinding, RootRead, Saying, Shared,
     TiersRead, TrackRead, Understood, Unread, read_stream, readable_files, time_of_day,
 };
-pub use info::{AttributeInfo, Info, InventoryInfo, SignerInfo};
+pub use info::{Amount, AttributeInfo, Info, InventoryInfo, SignerInfo};
 pub use inventories::StoredInventory;
 pub use kinematics::Curves;
 pub use list::{ListFilter, ListKind, Listing, cell_text, components_text};

@@ -123,11 +123,26 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
     ))?;
     let all: Vec<String> = info.counts.iter().map(counted).collect();
     output.line(format!("holds: {}", all.join(", ")))?;
+    let frames = |count: u64| counted_in(count, "frames", language);
     output.line(format!(
         "movement: {:.2} hours, {}",
         info.motion_hours,
-        counted_in(info.motion_frames, "frames", language)
+        frames(info.motion_frames)
     ))?;
+    if let Some(it) = info.amounts.get("markers") {
+        output.line(format!(
+            "markers: {:.2} hours, {}",
+            it.hours,
+            frames(it.frames)
+        ))?;
+    }
+    if let Some(it) = info.amounts.get("curves") {
+        output.line(format!(
+            "faces and other curves: {:.2} hours, {}",
+            it.hours,
+            frames(it.frames)
+        ))?;
+    }
     output.line(format!("recordings: {}", counts(&info.recordings)))?;
     output.line(format!("tracks: {}", counts(&info.tracks)))?;
     output.line(format!("tokens: {}", counts(&info.tokens)))?;
@@ -207,6 +222,14 @@ pub(super) const WORDS: Words = Words {
         (
             "movement: {hours} hours, {frames}",
             "mouvement : {hours} heures, {frames}",
+        ),
+        (
+            "markers: {hours} hours, {frames}",
+            "marqueurs : {hours} heures, {frames}",
+        ),
+        (
+            "faces and other curves: {hours} hours, {frames}",
+            "visages et autres courbes : {hours} heures, {frames}",
         ),
         ("recordings: {list}", "enregistrements : {list}"),
         ("tracks: {list}", "pistes : {list}"),

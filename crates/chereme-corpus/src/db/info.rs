@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use rusqlite::Connection;
+use serde::Serialize;
 
 use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::error::Result;
@@ -33,10 +34,13 @@ const KINDS: [(&str, &str); 17] = [
     ("operations", "operation"),
 ];
 
-/// Amount of movement in the corpus.
-pub(crate) struct Motion {
-    pub(crate) seconds: f64,
-    pub(crate) frames: u64,
+/// The amount of what was captured or generated in tracks of one kind.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+pub struct Amount {
+    /// Hours of all tracks together.
+    pub hours: f64,
+    /// Frames of all tracks together.
+    pub frames: u64,
 }
 
 /// Returns the number of rows of each kind.
@@ -93,19 +97,22 @@ fn grouped(connection: &Connection, sql: &str) -> Result<BTreeMap<String, u64>> 
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Returns the amount of movement in the corpus.
-pub(crate) fn motion(connection: &Connection) -> Result<Motion> {
-    Ok(connection
-        .prepare_cached(
-            "SELECT coalesce(sum(frames * 1.0 * rate_seconds / rate_frames), 0.0), coalesce(sum(frames), 0)
-             FROM track WHERE kind = 'skeleton'",
-        )?
-        .query_row([], |row| {
-            Ok(Motion {
-                seconds: row.get(0)?,
-                frames: row.get::<_, i64>(1)?.unsigned_abs(),
-            })
-        })?)
+/// Returns the amounts of movement, markers and curves in the corpus, by kind of track.
+pub(crate) fn amounts(connection: &Connection) -> Result<BTreeMap<String, Amount>> {
+    // Frames with times of their own have no rate: their track lasts from the first to the last.
+    let mut statement = connection.prepare_cached(
+        "SELECT kind, sum(coalesce(frames * 1.0 * rate_seconds / rate_frames, duration_us / 1e6, 0.0)),
+                sum(frames)
+         FROM track WHERE kind <> 'media' AND frames IS NOT NULL GROUP BY kind",
+    )?;
+    let rows = statement.query_map([], |row| {
+        let amount = Amount {
+            hours: row.get::<_, f64>(1)? / 3600.0,
+            frames: row.get::<_, i64>(2)?.unsigned_abs(),
+        };
+        Ok((row.get(0)?, amount))
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Returns the sizes of the file's contents in bytes, by kind of content.
