@@ -23,7 +23,7 @@ use chereme_sign::Component;
 use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
-use crate::dtw::{self, CostMethod, DtwError, Series};
+use crate::dtw::{self, Alignment, CostMethod, DtwError, Series};
 
 /// Half the time over which a velocity is measured, in seconds: longer than the jitter of
 /// captured markers, shorter than a stroke.
@@ -83,8 +83,8 @@ pub struct Score {
     pub distance: f64,
     /// The distance divided by the path's weight; `None` if the step pattern has no norm.
     pub normalized: Option<f64>,
-    /// For each component, the mean of its own distance over the aligned frames (both hands together), in
-    /// its own unit.
+    /// For each component, its own distance over the same alignment (both hands together), in its own unit and
+    /// divided like `normalized`, which none of them exceeds; without a norm, the mean over the alignment.
     pub components: BTreeMap<Component, f64>,
     /// The largest model-space distance, in metres, of a joint or a bone's tip to its counterpart: frame
     /// by frame if the clips have the same number of frames, else of aligned frames. `None` if the
@@ -195,7 +195,7 @@ pub fn score_as(
     Ok(Score {
         distance: aligned.cost.distance,
         normalized: aligned.cost.normalized,
-        components: component_parts(&first, &query, &reference, &aligned.path),
+        components: component_parts(&first, &query, &reference, &aligned),
         max_joint_error_m: largest.map(|(error, ..)| error),
         worst: largest.map(|(_, joint, frames)| Worst {
             joint: name(a.0, joint),
@@ -338,7 +338,7 @@ fn component_parts(
     features: &Features,
     query: &Series,
     reference: &Series,
-    path: &[(usize, usize)],
+    aligned: &Alignment,
 ) -> BTreeMap<Component, f64> {
     let mut channels: BTreeMap<Component, Vec<usize>> = BTreeMap::new();
     let mut next = 0;
@@ -349,20 +349,31 @@ fn component_parts(
             .extend(next..next + columns.len());
         next += columns.len();
     }
-    let part = |channels: &[usize]| {
-        let apart = |(i, j): &(usize, usize)| {
-            let difference = |c: &usize| query.column(*c)[*i] - reference.column(*c)[*j];
-            channels
-                .iter()
-                .map(|c| difference(c).powi(2))
-                .sum::<f64>()
-                .sqrt()
+    let path = &aligned.path;
+    // A step along both clips counts for a frame of each, as in the norm.
+    let weight = |n: usize| match n.checked_sub(1).map(|before| path[before]) {
+        Some((i, j)) if (i, j) != path[n] && (i == path[n].0 || j == path[n].1) => 1.0,
+        _ => 2.0,
+    };
+    let sum = |channels: &[usize]| -> f64 {
+        let apart = |(i, j): (usize, usize)| {
+            let difference = |c: &usize| query.column(*c)[i] - reference.column(*c)[j];
+            let squares = channels.iter().map(|c| difference(c).powi(2));
+            squares.sum::<f64>().sqrt()
         };
-        path.iter().map(apart).sum::<f64>() / path.len().max(1) as f64
+        let pairs = path.iter().enumerate();
+        pairs.map(|(n, pair)| weight(n) * apart(*pair)).sum()
+    };
+    let all: Vec<usize> = (0..next).collect();
+    let whole = sum(&all);
+    let weights: f64 = (0..path.len()).map(weight).sum();
+    let per_unit = match aligned.cost.normalized {
+        Some(normalized) if whole > 0.0 => normalized / whole,
+        _ => 1.0 / weights.max(1.0),
     };
     channels
         .iter()
-        .map(|(component, channels)| (*component, part(channels)))
+        .map(|(component, channels)| (*component, sum(channels) * per_unit))
         .collect()
 }
 

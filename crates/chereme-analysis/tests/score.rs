@@ -158,6 +158,20 @@ fn another_tempo_scores_as_nearly_equal_and_another_movement_does_not() {
 }
 
 #[test]
+fn no_part_exceeds_the_whole_at_unequal_rates() {
+    let clip = performance(signer(1.0, "", true), 180);
+    let half = Rate::new(60, 1).expect("a rate");
+    let thinned = clip.retimed(half, 90, |frame| clip.rate().instant(frame * 2));
+    for score in [scored(&clip, &thinned), scored(&thinned, &clip)] {
+        let whole = score.normalized.expect("a norm");
+        let most = score.components.values().copied().fold(0.0, f64::max);
+        assert!(most <= whole, "{most} of {whole}: {:?}", score.components);
+        // Two of three pairs would have to share it if pairs were counted.
+        assert!(most > 0.7 * whole, "{most} of {whole}");
+    }
+}
+
+#[test]
 fn a_translated_copy_differs_only_by_its_translation() {
     let clip = performance(signer(1.0, "", true), 60);
     let by = DVec3::new(0.3, 0.0, -0.4);

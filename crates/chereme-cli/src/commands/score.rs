@@ -52,7 +52,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .normalized
         .map_or("none".to_owned(), |it| format!("{it:.2}"));
     output.line(format!(
-        "distance {:.1} in all, {normalized} for each aligned pair of frames (0: the same movement; each part is in its \
+        "distance {:.1} in all, {normalized} for each frame of the two (0: the same movement; each part is in its \
          own scale)",
         score.distance
     ))?;
@@ -151,8 +151,8 @@ pub(super) const WORDS: Words = Words {
     ],
     lines: &[
         (
-            "distance {n} in all, {mean} for each aligned pair of frames (0: the same movement; each part is in its own scale)",
-            "distance {n} en tout, {mean} par paire d’images alignées (0 : le même mouvement ; chaque partie a sa propre échelle)",
+            "distance {n} in all, {mean} for each frame of the two (0: the same movement; each part is in its own scale)",
+            "distance {n} en tout, {mean} par image des deux (0 : le même mouvement ; chaque partie a sa propre échelle)",
         ),
         (
             "largest distance of a joint: {cm} cm",
