@@ -387,3 +387,54 @@ fn below(skeleton: &Skeleton, hand: usize, joint: usize, pose: &Pose) -> DQuat {
         .take_while(|&j| j != hand)
         .fold(DQuat::IDENTITY, |turned, j| pose.rotations[j] * turned)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{PLAIN, body, roles};
+    use super::*;
+    use crate::skeleton::Joint;
+
+    fn known(joints: Vec<Joint>) -> (Skeleton, Anatomy) {
+        let skeleton = Skeleton::new(joints).expect("a tree");
+        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("its own names");
+        (skeleton, anatomy)
+    }
+
+    #[test]
+    fn a_hand_without_fingers_points_along_its_tip_else_along_the_forearm() {
+        let whole = body(PLAIN);
+        for (tip, raised) in [
+            (None, 0.0),
+            (Some(DVec3::ZERO), 0.0),
+            (Some(DVec3::new(0.0, 0.1, 0.0)), 1.0),
+        ] {
+            let joints = whole.joints();
+            let is_digit = |joint: &Joint| {
+                let part = joint.name.parse();
+                matches!(part, Ok(Part::Thumb(..) | Part::Finger(..)))
+            };
+            let kept: Vec<usize> = (0..joints.len())
+                .filter(|&n| !is_digit(&joints[n]))
+                .collect();
+            let place = |old: usize| kept.iter().position(|&it| it == old);
+            let joints = kept.iter().map(|&n| Joint {
+                parent: joints[n].parent.and_then(place),
+                tip: if joints[n].name.ends_with("hand") {
+                    tip
+                } else {
+                    joints[n].tip
+                },
+                ..joints[n].clone()
+            });
+            let (skeleton, anatomy) = known(joints.collect());
+            for side in Side::BOTH {
+                let along = anatomy.hand_direction(side, &skeleton.rest_model_pose());
+                let want = DVec3::new(side.sign() * (1.0 - raised), raised, 0.0);
+                assert!(
+                    along.expect("a direction").abs_diff_eq(want, 1e-9),
+                    "{tip:?}: {along:?}"
+                );
+            }
+        }
+    }
+}

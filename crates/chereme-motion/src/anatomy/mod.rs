@@ -159,7 +159,9 @@ impl Anatomy {
         for side in Side::BOTH {
             anatomy.hands[place(side)] = fingers::HandFrame::of(&anatomy, skeleton, side);
             let hand = anatomy.joint(Part::Hand(side));
-            anatomy.hand_tips[place(side)] = hand.and_then(|hand| skeleton.joint(hand).tip);
+            anatomy.hand_tips[place(side)] = hand
+                .and_then(|hand| skeleton.joint(hand).tip)
+                .filter(|tip| tip.try_normalize().is_some());
         }
         anatomy.with_reference(skeleton, &skeleton.rest_model_pose())
     }
