@@ -50,6 +50,10 @@ const LAX: f64 = 0.5;
 /// The spread of a finger in a widely spread hand, in radians.
 const WIDE: f64 = 0.35;
 
+/// The angle by which the last bone of a digit may be bent more than the one before it at rest, in radians; it is up to
+/// 12 degrees in captures.
+const STIFF: f64 = 0.6;
+
 /// Returns the turn of a finger's metacarpal towards the palm, in radians.
 fn arch(place: usize, finger: &FingerAngles) -> f64 {
     let bent = ((finger.flexion[0] - LAX) / (FRAC_PI_2 - LAX)).clamp(0.0, 1.0);
@@ -72,7 +76,7 @@ impl HandFrame {
         let thumb = at(Part::Thumb(side, 1)).or_else(|| {
             let joint = anatomy.joint(Part::Thumb(side, 0))?;
             let (place, turned) = in_hand(skeleton, hand, joint);
-            Some(place + turned * skeleton.joint(joint).tip?)
+            Some(place + turned * digit_tip(anatomy, skeleton, joint)?)
         });
         let across = match (known.first(), known.last()) {
             (Some(&first), Some(&last)) if known.len() > 1 => first - last,
@@ -96,14 +100,14 @@ impl HandFrame {
             metacarpals: Finger::ALL.map(|finger| anatomy.joint(Part::Finger(side, finger, 0))),
         };
         frame.thumb = frame.zeros(
-            skeleton,
+            (anatomy, skeleton),
             hand,
             [0, 1, 2].map(|n| anatomy.joint(Part::Thumb(side, n))),
             true,
         );
         for finger in Finger::ALL {
             let joints = [1, 2, 3].map(|n| anatomy.joint(Part::Finger(side, finger, n)));
-            frame.fingers[finger.index()] = frame.zeros(skeleton, hand, joints, false);
+            frame.fingers[finger.index()] = frame.zeros((anatomy, skeleton), hand, joints, false);
         }
         Some(frame)
     }
@@ -111,7 +115,7 @@ impl HandFrame {
     /// Returns the rotations of a digit's joints when it is straight along the hand.
     fn zeros(
         &self,
-        skeleton: &Skeleton,
+        (anatomy, skeleton): (&Anatomy, &Skeleton),
         hand: usize,
         joints: [Option<usize>; 3],
         thumb: bool,
@@ -124,7 +128,7 @@ impl HandFrame {
             };
             let (start, turned) = in_hand(skeleton, hand, joint);
             let next = joints[place + 1..].iter().flatten().next();
-            let bone = bone_end(skeleton, hand, joint, next.copied())
+            let bone = bone_end((anatomy, skeleton), hand, joint, next.copied())
                 .and_then(|end| (end - start).try_normalize())
                 .or(before.map(|(_, bone)| bone))
                 .unwrap_or(self.along);
@@ -193,7 +197,12 @@ pub(super) fn in_hand(skeleton: &Skeleton, hand: usize, joint: usize) -> (DVec3,
 }
 
 /// Returns the end of the bone of `joint`: the digit's next joint, its tip, or its only child.
-fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>) -> Option<DVec3> {
+fn bone_end(
+    (anatomy, skeleton): (&Anatomy, &Skeleton),
+    hand: usize,
+    joint: usize,
+    next: Option<usize>,
+) -> Option<DVec3> {
     let child = match *skeleton.children(joint) {
         [child] => Some(child),
         _ => None,
@@ -202,7 +211,34 @@ fn bone_end(skeleton: &Skeleton, hand: usize, joint: usize, next: Option<usize>)
         return Some(in_hand(skeleton, hand, next).0);
     }
     let (place, turned) = in_hand(skeleton, hand, joint);
-    skeleton.joint(joint).tip.map(|tip| place + turned * tip)
+    digit_tip(anatomy, skeleton, joint).map(|tip| place + turned * tip)
+}
+
+/// Returns the tip of a digit's last joint in the joint's space.
+///
+/// Some programs write ends along an axis of the joint instead of along the finger. A tip is turned to the direction of
+/// the bone before it if it is off by more than end joints bend at rest: [`STIFF`] more than the bone before is bent.
+pub(super) fn digit_tip(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+    let own = skeleton.joint(joint);
+    let tip = own.tip?;
+    let is_digit = |part| matches!(part, Part::Thumb(..) | Part::Finger(..));
+    let above = skeleton.parent(joint);
+    let above = above.filter(|&above| anatomy.part_of(above).is_some_and(is_digit));
+    let Some(above) = above.map(|above| skeleton.joint(above)) else {
+        return Some(tip);
+    };
+    let bones = [
+        above.rest.inverse() * above.offset,
+        own.offset,
+        own.rest * tip,
+    ];
+    let [Some(first), Some(second), Some(last)] = bones.map(DVec3::try_normalize) else {
+        return Some(tip);
+    };
+    if last.angle_between(second) <= STIFF + second.angle_between(first) {
+        return Some(tip);
+    }
+    Some(own.rest.inverse() * second * tip.length())
 }
 
 /// Returns whether thumb and fingers at rest clearly point and bend away from the palm that the side implies: then the
@@ -390,7 +426,7 @@ fn below(skeleton: &Skeleton, hand: usize, joint: usize, pose: &Pose) -> DQuat {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN, body, roles};
+    use super::super::fixtures::{PLAIN, Wear, body, roles};
     use super::*;
     use crate::skeleton::Joint;
 
@@ -434,6 +470,58 @@ mod tests {
                     along.expect("a direction").abs_diff_eq(want, 1e-9),
                     "{tip:?}: {along:?}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn a_tip_that_points_elsewhere_than_its_finger_is_turned_to_the_bone_before() {
+        let wear = Wear { bent: 0.1, ..PLAIN };
+        let (plain, anatomy) = known(body(wear).joints().to_vec());
+        let mut angles = HandAngles::default();
+        for finger in &mut angles.fingers {
+            finger.flexion = [0.4, 1.2, 0.7];
+        }
+        angles.thumb.flexion = [0.3, 0.5];
+        let mut pose = plain.rest_pose();
+        for side in Side::BOTH {
+            assert!(anatomy.set_hand_angles(&plain, side, &angles, &mut pose));
+        }
+        for axis in [DVec3::Y, DVec3::NEG_Y, DVec3::Z, DVec3::NEG_Z] {
+            let mut joints = plain.joints().to_vec();
+            for joint in &mut joints {
+                let part = joint.name.parse();
+                if matches!(part, Ok(Part::Thumb(..) | Part::Finger(..))) {
+                    joint.tip = joint.tip.map(|tip| axis * tip.length());
+                }
+            }
+            let (odd, read) = known(joints);
+            for side in Side::BOTH {
+                let got = read.hand_angles(&odd, side, &pose).expect("a hand");
+                for (a, b) in got.to_array().into_iter().zip(angles.to_array()) {
+                    // The tips of `plain` are bent by 0.1 at rest, which nothing else shows.
+                    assert!((a - b).abs() < 0.11, "{axis} {side:?}: {got:?}");
+                }
+                let model = ModelPose::of(&plain, &pose);
+                for finger in Finger::ALL {
+                    let name = format!("{}-{}-tip", side.name(), finger.name());
+                    let at = |(skeleton, anatomy): (&Skeleton, &Anatomy)| {
+                        anatomy.landmark(skeleton, &model, &name).expect("a tip")
+                    };
+                    let (one, other) = (at((&plain, &anatomy)), at((&odd, &read)));
+                    assert!(one.distance(other) < 0.003, "{axis} {name}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_tips_of_fingers_that_are_bent_at_rest_are_believed() {
+        for bent in [0.0, 0.2, 0.5, 0.8, 1.2] {
+            let (skeleton, anatomy) = known(body(Wear { bent, ..PLAIN }).joints().to_vec());
+            for joint in 0..skeleton.len() {
+                let tip = digit_tip(&anatomy, &skeleton, joint);
+                assert_eq!(tip, skeleton.joint(joint).tip, "{bent}");
             }
         }
     }

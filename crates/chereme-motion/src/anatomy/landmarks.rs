@@ -305,8 +305,8 @@ impl Anatomy {
             (1..4).map(|n| Part::Finger(side, finger, n)).collect()
         };
         let last = parts.iter().rev().find_map(|&part| self.joint(part))?;
-        if let Some(tip) = model.tip(skeleton, last) {
-            return Some(tip);
+        if let Some(tip) = super::fingers::digit_tip(self, skeleton, last) {
+            return Some(model.point(last, tip));
         }
         if let [child] = *skeleton.children(last) {
             return Some(model.position(child));
