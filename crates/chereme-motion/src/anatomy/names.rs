@@ -3,6 +3,7 @@
 //! Splits a name into words at separators, digits and capitals, removes words for the side, the rig's prefix and
 //! fillers, and looks up the rest in one table.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use crate::hand::{Finger, Side};
@@ -211,7 +212,7 @@ const FILLERS: [&str; 12] = [
 
 /// Returns the meaning of one name. `from_zero`: the skeleton numbers its digits from 0, the thumb, rather than from 1.
 fn read(name: &str, from_zero: bool) -> Option<Label> {
-    let all = words(name);
+    let all = words(&with_forearm(name));
     if let [letter, number] = all.as_slice()
         && matches!(letter.as_str(), "l" | "t" | "c")
         && number.chars().all(|c| c.is_ascii_digit())
@@ -247,6 +248,14 @@ fn read(name: &str, from_zero: bool) -> Option<Label> {
     let (found, core) = merged_side(found, &core, &numbers, from_zero);
     let word = lookup(core, found.is_some(), &numbers, from_zero)?;
     Some(Label { side: found, word })
+}
+
+/// Writes out the forearm of Motive's names, `LFArm` and `RFArm`: as words they would read like `lf_arm`, a left arm.
+fn with_forearm(name: &str) -> Cow<'_, str> {
+    match name.strip_suffix("FArm") {
+        Some(side @ ("L" | "R")) => Cow::Owned(format!("{side}Forearm")),
+        _ => Cow::Borrowed(name),
+    }
 }
 
 /// Finds the side in names without separators or capitals: `lhumerus`, `leftupperarm`.
@@ -453,6 +462,13 @@ mod tests {
             ("base", "-".into()),
             ("", "-".into()),
             ("手", "-".into()),
+            ("LFArm", "left Forearm".into()),
+            ("RFArm", "right Forearm".into()),
+            ("LUArm", "left UpperArm".into()),
+            ("lf_arm", "left UpperArm".into()),
+            ("Lf_Arm", "left UpperArm".into()),
+            ("LFoot", "left Foot".into()),
+            ("LIndex1", format!("{index}Number(1))")),
         ] {
             assert_eq!(say(name), want, "{name}");
         }
