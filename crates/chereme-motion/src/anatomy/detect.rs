@@ -9,6 +9,10 @@ use super::{Ambiguity, Anatomy, Evidence};
 use crate::hand::Side;
 use crate::skeleton::Skeleton;
 
+/// The length of a thumb's first two bones as a share of the third, below which the first joint is one more than a
+/// thumb has: some 0.9 there, and 2.2 if the joints are metacarpal, base, end joint and end.
+const EXTRA: f64 = 1.6;
+
 /// The result of the detection.
 pub(super) struct Detected {
     pub(super) found: BTreeMap<Part, (usize, Evidence)>,
@@ -213,11 +217,13 @@ impl<'a> Finder<'a> {
         chain.retain(|&(joint, _)| self.is_below(joint, first));
         let joints: Vec<usize> = chain.iter().map(|&(joint, _)| joint).collect();
         let metacarpal = chain[0].1 == Segment::Metacarpal
-            || (!chain.iter().any(|(_, s)| *s == Segment::Proximal) && self.starts_inside(&joints));
+            || (!chain.iter().any(|(_, s)| *s == Segment::Proximal)
+                && self.starts_inside(digit, &joints));
         self.assign_digit(side, digit, &joints, metacarpal, Evidence::Name);
     }
 
-    /// Assigns the parts of a digit to its joints, from the metacarpal or the base on.
+    /// Assigns the parts of a digit to its joints, from the metacarpal or the base on. A thumb of four joints or more
+    /// that starts inside the hand, as `metacarpal` tells, has a joint before its own metacarpal, which is no part.
     pub(super) fn assign_digit(
         &mut self,
         side: Side,
@@ -227,6 +233,8 @@ impl<'a> Finder<'a> {
         how: Evidence,
     ) {
         let skip = u8::from(!metacarpal);
+        let extra = digit == Digit::Thumb && metacarpal && joints.len() > 3;
+        let joints = &joints[usize::from(extra)..];
         for (place, &joint) in (0u8..).zip(joints) {
             let part = match digit {
                 Digit::Thumb if place < 3 => Part::Thumb(side, place),
@@ -239,14 +247,20 @@ impl<'a> Finder<'a> {
         }
     }
 
-    /// Returns whether the first joint of a finger with three or more joints lies inside the hand: nearer to the wrist
-    /// than to its second joint. That is so for a metacarpal, and not for a base joint.
-    pub(super) fn starts_inside(&self, chain: &[usize]) -> bool {
-        let [first, second, _, ..] = *chain else {
-            return false;
-        };
+    /// Returns whether the first joint of a digit with three or more joints lies inside the hand: nearer to the wrist
+    /// than to its second joint. That is so for a finger's metacarpal, and not for its base joint. For a thumb, which
+    /// starts with its metacarpal, returns whether its first two bones are about as long as the third: then they lead
+    /// from the wrist to the metacarpal, and else the last of four joints is the thumb's end.
+    pub(super) fn starts_inside(&self, digit: Digit, chain: &[usize]) -> bool {
         let length = |joint: usize| self.skeleton.joint(joint).offset.length();
-        length(first) < length(second)
+        match (digit, chain) {
+            (Digit::Thumb, &[first, second, third, _, ..]) => {
+                length(first) + length(second) < EXTRA * length(third)
+            }
+            (Digit::Thumb, _) => false,
+            (Digit::Finger(_), &[first, second, _, ..]) => length(first) < length(second),
+            (Digit::Finger(_), _) => false,
+        }
     }
 
     /// Finds the chest, where the arms (or one arm and the neck) branch off, and the spine, which begins above the
@@ -359,4 +373,114 @@ fn other_side(name: &str) -> Option<String> {
     let mut letters = letters;
     letters[at] = swapped;
     Some(letters.into_iter().collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixtures::{PLAIN, body, roles};
+    use super::*;
+    use crate::skeleton::Joint;
+
+    /// Returns a body whose thumbs have four joints: one more at a share of the path from the wrist to the metacarpal,
+    /// or else one more at the thumb's end.
+    fn with_long_thumbs(names: [&str; 4], inside: Option<f64>) -> Skeleton {
+        let plain = body(PLAIN);
+        let anatomy = Anatomy::with_roles(&plain, &roles(&plain)).expect("its own names");
+        let mut joints: Vec<Joint> = Vec::new();
+        let mut places = vec![0; plain.len()];
+        let named = |side: Side, n: usize| {
+            names[n].replace("{}", ["Right", "Left"][super::super::place(side)])
+        };
+        for (n, joint) in plain.joints().iter().enumerate() {
+            let mut joint = joint.clone();
+            joint.parent = joint.parent.map(|parent| places[parent]);
+            match anatomy.part_of(n) {
+                Some(Part::Thumb(side, bone)) => {
+                    let bone = usize::from(bone);
+                    if let Some(share) = inside.filter(|_| bone == 0) {
+                        let offset = joint.offset * share;
+                        joints.push(Joint::new(named(side, 0), joint.parent, offset));
+                        joint.parent = Some(joints.len() - 1);
+                        joint.offset -= offset;
+                    }
+                    joint.name = named(side, bone + usize::from(inside.is_some()));
+                    places[n] = joints.len();
+                    let tip = joint.tip.take();
+                    joints.push(joint);
+                    if let Some(tip) = tip {
+                        if inside.is_none() {
+                            joints.push(Joint::new(named(side, 3), Some(places[n]), tip));
+                        }
+                        let last = joints.last_mut().expect("a joint");
+                        last.tip = Some(tip);
+                    }
+                }
+                _ => {
+                    places[n] = joints.len();
+                    joints.push(joint);
+                }
+            }
+        }
+        Skeleton::new(joints).expect("a tree")
+    }
+
+    #[test]
+    fn a_thumb_of_four_joints_has_one_more_before_its_metacarpal_or_an_end() {
+        let numbered = [
+            "{}HandThumb1",
+            "{}HandThumb2",
+            "{}HandThumb3",
+            "{}HandThumb4",
+        ];
+        let from_zero = [
+            "{}HandThumb0",
+            "{}HandThumb1",
+            "{}HandThumb2",
+            "{}HandThumb3",
+        ];
+        let in_hand = [
+            "{}InHandThumb",
+            "{}HandThumb1",
+            "{}HandThumb2",
+            "{}HandThumb3",
+        ];
+        let words = [
+            "{}ThumbMetacarpal",
+            "{}ThumbProximal",
+            "{}ThumbIntermediate",
+            "{}ThumbDistal",
+        ];
+        for (names, inside) in [
+            (in_hand, Some(0.0)),
+            (in_hand, Some(0.5)),
+            (from_zero, Some(0.0)),
+            (from_zero, Some(0.5)),
+            (words, Some(0.5)),
+            (numbered, Some(0.4)),
+            (numbered, Some(0.9)),
+            (["a{}", "b{}", "c{}", "d{}"], Some(0.4)),
+            (numbered, None),
+            (from_zero, None),
+            (["a{}", "b{}", "c{}", "d{}"], None),
+        ] {
+            let skeleton = with_long_thumbs(names, inside);
+            let unnamed = names[0].starts_with('a');
+            let mut known = roles(&skeleton);
+            known.0.retain(|part, _| match part {
+                Part::Thumb(..) => false,
+                Part::Finger(..) => !unnamed,
+                _ => true,
+            });
+            let anatomy = Anatomy::with_roles(&skeleton, &known).expect("its own names");
+            for side in Side::BOTH {
+                for bone in 0..3u8 {
+                    let joint = anatomy.joint(Part::Thumb(side, bone)).expect("a thumb");
+                    let name = &skeleton.joint(joint).name;
+                    let at = usize::from(bone) + usize::from(inside.is_some());
+                    let word = ["Right", "Left"][super::super::place(side)];
+                    assert_eq!(*name, names[at].replace("{}", word), "{inside:?} {bone}");
+                }
+            }
+        }
+    }
 }

@@ -9,7 +9,7 @@ use super::fingers::in_hand;
 use super::names::Digit;
 use super::part::Part;
 use super::{Ambiguity, Evidence};
-use crate::hand::Side;
+use crate::hand::{Finger, Side};
 use crate::skeleton::Skeleton;
 
 impl Finder<'_> {
@@ -205,7 +205,7 @@ impl Finder<'_> {
         let thumb = at(end(self.skeleton, chains[0][0]));
         let along = (mean - direction(&chains[0])).normalize_or_zero();
         let across = |chain: &[usize]| {
-            let start = if self.starts_inside(chain) {
+            let start = if self.starts_inside(Digit::Finger(Finger::Index), chain) {
                 chain[1]
             } else {
                 chain[0]
@@ -214,7 +214,7 @@ impl Finder<'_> {
         };
         chains[1..].sort_by(|a, b| across(a).total_cmp(&across(b)));
         for (digit, chain) in Digit::ALL.into_iter().zip(&chains) {
-            let metacarpal = self.starts_inside(chain);
+            let metacarpal = self.starts_inside(digit, chain);
             self.assign_digit(side, digit, chain, metacarpal, Evidence::Topology);
         }
     }
