@@ -349,7 +349,13 @@ pub(super) fn mirror_map(anatomy: &Anatomy, skeleton: &Skeleton) -> Vec<Option<u
 
 /// Returns the name with its word for a side exchanged, if it has one.
 fn other_side(name: &str) -> Option<String> {
-    for (a, b) in [("Left", "Right"), ("left", "right"), ("LEFT", "RIGHT")] {
+    for (a, b) in [
+        ("Left", "Right"),
+        ("left", "right"),
+        ("LEFT", "RIGHT"),
+        ("Links", "Rechts"),
+        ("links", "rechts"),
+    ] {
         for (from, to) in [(a, b), (b, a)] {
             if name.contains(from) {
                 return Some(name.replacen(from, to, 1));
@@ -377,7 +383,7 @@ fn other_side(name: &str) -> Option<String> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixtures::{PLAIN, body, roles};
+    use super::super::fixtures::{PLAIN, body, renamed, roles};
     use super::*;
     use crate::skeleton::Joint;
 
@@ -482,5 +488,20 @@ mod tests {
                 }
             }
         }
+    }
+
+    #[test]
+    fn toes_of_legs_without_known_names_are_no_markers() {
+        let plain = body(PLAIN);
+        let skeleton = renamed(&plain, |_, name| {
+            let leg = ["thigh", "shin", "foot", "toes"];
+            match leg.iter().find(|part| name.ends_with(*part)) {
+                Some(part) => format!("{}-{}", &name[..2], part.replace(['e', 'i', 'o'], "x")),
+                None => name.to_owned(),
+            }
+        });
+        let anatomy = Anatomy::detect(&skeleton);
+        assert_eq!(anatomy.markers(), [0; 0]);
+        assert!(anatomy.arm(Side::Left).is_some());
     }
 }

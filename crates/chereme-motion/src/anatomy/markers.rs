@@ -34,8 +34,11 @@ pub(super) fn find(skeleton: &Skeleton, names: &[&str], labels: &[Option<Label>]
         let (Some(body), Some(below)) = (body, &below) else {
             return false;
         };
-        let above = skeleton.ancestors(body).any(|it| it == joint);
-        below.len() >= WHOLE && !above && !below.contains(&joint)
+        let above: Vec<usize> = skeleton.ancestors(body).collect();
+        // The toes of a leg without known names are farther from the trunk.
+        let near = skeleton.ancestors(joint).skip(1).take(2);
+        let near = near.filter(|it| above.contains(it)).count() > 0;
+        below.len() >= WHOLE && near && !above.contains(&joint) && !below.contains(&joint)
     };
     let carries = |joint: usize| {
         let label = labels[joint].map(|label| label.word);

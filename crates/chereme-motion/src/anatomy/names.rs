@@ -141,11 +141,16 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
     }
 }
 
-/// Splits a name into lower-case words at separators, between letters and digits, and at capitals.
+/// Splits a name into lower-case words at separators, between letters and digits, and at capitals. Umlauts become two
+/// letters, in whichever of their two forms they are written: `hüfte` is `huefte`.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = vec![String::new()];
     let letters: Vec<char> = name.chars().collect();
     for (i, &c) in letters.iter().enumerate() {
+        if c == '\u{308}' {
+            words.last_mut().into_iter().for_each(|word| word.push('e'));
+            continue;
+        }
         if !c.is_alphanumeric() {
             words.push(String::new());
             continue;
@@ -161,7 +166,13 @@ fn words(name: &str) -> Vec<String> {
         }
         let word = words.last_mut();
         if let Some(word) = word {
-            word.extend(c.to_lowercase());
+            match c {
+                'ä' | 'Ä' => word.push_str("ae"),
+                'ö' | 'Ö' => word.push_str("oe"),
+                'ü' | 'Ü' => word.push_str("ue"),
+                'ß' | 'ẞ' => word.push_str("ss"),
+                c => word.extend(c.to_lowercase()),
+            }
         }
     }
     words.retain(|word| !word.is_empty());
@@ -170,8 +181,10 @@ fn words(name: &str) -> Vec<String> {
 
 fn side(word: &str) -> Option<Side> {
     match word {
-        "l" | "left" | "lft" | "lf" => Some(Side::Left),
-        "r" | "right" | "rgt" | "rt" => Some(Side::Right),
+        "l" | "left" | "lft" | "lf" | "links" | "linke" | "linker" | "linkes" => Some(Side::Left),
+        "r" | "right" | "rgt" | "rt" | "rechts" | "rechte" | "rechter" | "rechtes" => {
+            Some(Side::Right)
+        }
         _ => None,
     }
 }
@@ -271,6 +284,8 @@ fn merged_side<'a>(
     for (head, side) in [
         ("left", Side::Left),
         ("right", Side::Right),
+        ("links", Side::Left),
+        ("rechts", Side::Right),
         ("l", Side::Left),
         ("r", Side::Right),
     ] {
@@ -288,7 +303,7 @@ fn lookup(core: &str, sided: bool, numbers: &[&str], from_zero: bool) -> Option<
         "root" => Word::Root,
         "hip" if sided => Word::SideHip,
         "pelvis" | "hips" if sided => return None,
-        "hips" | "hip" | "pelvis" | "hara" => Word::Hips,
+        "hips" | "hip" | "pelvis" | "hara" | "becken" => Word::Hips,
         "spine" | "spinelower" | "spineupper" | "spinemid" | "lowerback" | "upperback" | "back"
         | "abdomen" | "abdomenlower" | "abdomenupper" | "ab" | "torso" | "lowertorso"
         | "uppertorso" | "waist" | "chest" | "chestlower" | "chestupper" | "upperchest"
@@ -313,11 +328,38 @@ fn lookup(core: &str, sided: bool, numbers: &[&str], from_zero: bool) -> Option<
         "ankle" => Word::Ankle,
         "foot" | "feet" => Word::Foot,
         "toe" | "toes" | "toebase" | "ball" | "toebone" => Word::Toes,
-        _ => return digit(core, numbers, from_zero),
+        _ => return german(core, sided).or_else(|| digit(core, numbers, from_zero)),
     })
 }
 
-const DIGITS: [(&str, Digit); 14] = [
+/// Looks up a German word, with umlauts written as two letters.
+fn german(core: &str, sided: bool) -> Option<Word> {
+    Some(match core {
+        "huefte" | "hueftgelenk" if sided => Word::SideHip,
+        "huefte" | "hueften" => Word::Hips,
+        "wirbel" | "wirbelsaeule" | "brust" | "brustkorb" | "bauch" | "ruecken" | "oberkoerper" => {
+            Word::Spine
+        }
+        "hals" | "nacken" | "genick" => Word::Neck,
+        "kopf" | "schaedel" => Word::Head,
+        "kiefer" | "unterkiefer" => Word::Jaw,
+        "auge" | "augapfel" => Word::Eye,
+        "schluesselbein" => Word::Clavicle,
+        "schulter" => Word::Shoulder,
+        "oberarm" => Word::UpperArm,
+        "unterarm" | "ellbogen" | "ellenbogen" => Word::Forearm,
+        "handgelenk" => Word::Wrist,
+        "oberschenkel" => Word::Thigh,
+        "bein" => Word::Leg,
+        "unterschenkel" | "knie" | "schienbein" => Word::Shin,
+        "fussgelenk" | "knoechel" | "sprunggelenk" => Word::Ankle,
+        "fuss" => Word::Foot,
+        "zehen" | "zehe" | "zeh" | "fussballen" => Word::Toes,
+        _ => return None,
+    })
+}
+
+const DIGITS: [(&str, Digit); 20] = [
     ("thumb", Digit::Thumb),
     ("index", Digit::Finger(Finger::Index)),
     ("pointer", Digit::Finger(Finger::Index)),
@@ -332,6 +374,12 @@ const DIGITS: [(&str, Digit); 14] = [
     ("third", Digit::Finger(Finger::Middle)),
     ("fourth", Digit::Finger(Finger::Ring)),
     ("fifth", Digit::Finger(Finger::Little)),
+    ("daumen", Digit::Thumb),
+    ("zeige", Digit::Finger(Finger::Index)),
+    ("mittel", Digit::Finger(Finger::Middle)),
+    ("kleiner", Digit::Finger(Finger::Little)),
+    ("kleine", Digit::Finger(Finger::Little)),
+    ("klein", Digit::Finger(Finger::Little)),
 ];
 
 fn digit(core: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
@@ -357,12 +405,12 @@ fn digit(core: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
 }
 
 fn segment(rest: &str, number: Option<u32>) -> Option<Segment> {
-    Some(match rest {
-        "" | "finger" => number.map_or(Segment::Unsaid, Segment::Number),
+    Some(match rest.strip_prefix("finger").unwrap_or(rest) {
+        "" => number.map_or(Segment::Unsaid, Segment::Number),
         "metacarpal" | "mc" | "meta" | "carpal" => Segment::Metacarpal,
-        "proximal" | "pp" | "prox" => Segment::Proximal,
-        "intermediate" | "medial" | "mp" | "inter" | "med" => Segment::Intermediate,
-        "distal" | "dp" | "dist" => Segment::Distal,
+        "proximal" | "pp" | "prox" | "grundglied" => Segment::Proximal,
+        "intermediate" | "medial" | "mp" | "inter" | "med" | "mittelglied" => Segment::Intermediate,
+        "distal" | "dp" | "dist" | "endglied" => Segment::Distal,
         _ => return None,
     })
 }
@@ -469,6 +517,23 @@ mod tests {
             ("Lf_Arm", "left UpperArm".into()),
             ("LFoot", "left Foot".into()),
             ("LIndex1", format!("{index}Number(1))")),
+            ("Hüfte", "Hips".into()),
+            ("linke Hüfte", "left SideHip".into()),
+            ("Hu\u{308}fte.R", "right SideHip".into()),
+            ("Wirbelsäule2", "Spine".into()),
+            ("Fuß.L", "left Foot".into()),
+            ("FUSS_R", "right Foot".into()),
+            ("OberarmLinks", "left UpperArm".into()),
+            ("linksUnterarm", "left Forearm".into()),
+            ("Zeigefinger1.L", format!("{index}Number(1))")),
+            (
+                "Zeigefinger Mittelglied links",
+                format!("{index}Intermediate)"),
+            ),
+            (
+                "KleinerFinger2.R",
+                "right Digit(Finger(Little), Number(2))".into(),
+            ),
         ] {
             assert_eq!(say(name), want, "{name}");
         }
