@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_analysis::transcribe::FeatureKind;
 use chereme_formats::roles::Hands;
 use chereme_formats::table::annotations::Moment;
-use chereme_motion::{Instant, Span};
+use chereme_motion::{Instant, Side, Span};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::hamnosys::components::Mapper;
 use chereme_sign::{Component, Field, HandRef, Phase, TierRole};
@@ -232,10 +232,14 @@ impl Corpus {
         if hit.recording.is_none() {
             return Ok(None);
         }
-        let written = self.transcribe(&Address::Token(hit.token), progress)?;
+        let address = Address::Token(hit.token);
+        let written = self.transcribe(&address, progress)?;
         let features = written.features;
         let inventories = self.inventories_now()?;
-        let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory));
+        let stretch = crate::address::stretch(self.store.read(), &address)?;
+        let left_handed = self.dominant(&stretch)? == Side::Left;
+        let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory))
+            .of_left_handed(left_handed);
         let sign = Notated {
             gloss: written.gloss,
             text: Some(written.hamnosys),

@@ -248,7 +248,7 @@ impl Corpus {
     }
 
     /// Returns the signer's dominant hand: the right one if it is unknown.
-    fn dominant(&self, stretch: &Stretch) -> Result<Side> {
+    pub(crate) fn dominant(&self, stretch: &Stretch) -> Result<Side> {
         let signer = match stretch.recording.signer_id {
             Some(id) => recordings::signer(self.store.read(), id)?,
             None => None,

@@ -237,44 +237,9 @@ fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the
     use chereme_corpus::SearchOptions;
     use chereme_sign::Component;
     let folder = tempfile::tempdir().expect("a folder");
-    let mut paths = Vec::new();
-    for (name, bytes) in starter_files() {
-        let is_wanted = |ending: &str| name.to_string_lossy().ends_with(ending);
-        if is_wanted("bol.bvh") {
-            let path = folder.path().join("bol.bvh");
-            std::fs::write(&path, bytes).expect("written");
-            paths.push(path);
-        }
-    }
-    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
-    let (options, mut unheard) = (ImportOptions::default(), unheard);
+    let mut unheard = unheard;
     let mut progress = Progress::new(&mut unheard);
-    corpus
-        .import(&paths, &options, &mut progress)
-        .expect("taken in");
-    let gloss = chereme_corpus::NewTier::new(
-        chereme_corpus::Name::Text("bol".into()),
-        "gloss",
-        chereme_corpus::TierRole::Gloss,
-    );
-    let tier = corpus.add_tier(&gloss).expect("a tier");
-    let seconds = |at: f64| {
-        Some(chereme_corpus::Moment::Time(
-            chereme_motion::Instant::from_micros((at * 1e6) as i64),
-        ))
-    };
-    let add = chereme_corpus::AnnotationAction::Add {
-        tier: chereme_corpus::TierName::Number(tier.id),
-        start: seconds(0.0),
-        end: seconds(1.0),
-        parent: None,
-        order: None,
-        value: "BOL".into(),
-        confidence: None,
-    };
-    corpus
-        .annotate(&[add.into()], &Default::default(), &mut progress)
-        .expect("annotated");
+    let mut corpus = uncoded(folder.path(), "bol", (0.0, 1.0), None);
     let count = |corpus: &mut Corpus| {
         let options = SearchOptions::default();
         let found = corpus.search("configuration=*", &options).expect("found");
@@ -309,4 +274,85 @@ fn a_component_that_is_not_coded_is_proposed_from_movement_and_a_stop_leaves_the
     assert_eq!(tiers, 1, "the proposed tiers go with their values");
     let refused = corpus.propose_coding(Component::NonManual, &mut progress);
     assert!(refused.expect_err("refused").remedy().is_some());
+}
+
+/// Returns a corpus with a starter recording and a gloss on it, without codings.
+fn uncoded(
+    folder: &std::path::Path,
+    name: &str,
+    (start, end): (f64, f64),
+    handedness: Option<&str>,
+) -> Corpus {
+    let mut paths = Vec::new();
+    for (file, bytes) in starter_files() {
+        if file.to_string_lossy().ends_with(&format!("{name}.bvh")) {
+            let path = folder.join(format!("{name}.bvh"));
+            std::fs::write(&path, bytes).expect("written");
+            paths.push(path);
+        }
+    }
+    let file = format!("{}.chereme", handedness.unwrap_or("c"));
+    let mut corpus = Corpus::create(&folder.join(file), "A").expect("made");
+    let options = ImportOptions {
+        signer: handedness.map(|_| "Ada".to_owned()),
+        handedness: handedness.map(str::to_owned),
+        ..ImportOptions::default()
+    };
+    let mut unheard = unheard;
+    let mut progress = Progress::new(&mut unheard);
+    corpus
+        .import(&paths, &options, &mut progress)
+        .expect("taken in");
+    let gloss = chereme_corpus::NewTier::new(
+        chereme_corpus::Name::Text(name.into()),
+        "gloss",
+        chereme_corpus::TierRole::Gloss,
+    );
+    let tier = corpus.add_tier(&gloss).expect("a tier");
+    let seconds = |at: f64| {
+        Some(chereme_corpus::Moment::Time(
+            chereme_motion::Instant::from_micros((at * 1e6) as i64),
+        ))
+    };
+    let add = chereme_corpus::AnnotationAction::Add {
+        tier: chereme_corpus::TierName::Number(tier.id),
+        start: seconds(start),
+        end: seconds(end),
+        parent: None,
+        order: None,
+        value: name.to_uppercase(),
+        confidence: None,
+    };
+    corpus
+        .annotate(&[add.into()], &Default::default(), &mut progress)
+        .expect("annotated");
+    corpus
+}
+
+#[test]
+fn directions_and_sides_of_proposals_do_not_depend_on_the_signers_handedness() {
+    use chereme_corpus::{ProposeOptions, ProposeScope, SearchOptions};
+    use chereme_sign::Component;
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut unheard = unheard;
+    let mut progress = Progress::new(&mut unheard);
+    let mut read = |handedness: Option<&str>| {
+        let mut corpus = uncoded(folder.path(), "chat", (1.05, 2.97), handedness);
+        let options = ProposeOptions {
+            components: vec![Component::Placement, Component::Orientation],
+            scope: ProposeScope::All,
+        };
+        let proposed = corpus.propose(&options, &mut progress).expect("proposed");
+        assert_eq!((proposed.tokens, proposed.unread), (1, 0));
+        let found = corpus.search("CHAT", &SearchOptions::default());
+        found.expect("found").hits.remove(0).components
+    };
+    let right_handed = read(Some("right"));
+    assert_eq!(read(Some("left")), right_handed);
+    assert_eq!(read(None), right_handed);
+    let values = serde_json::to_string(&right_handed).expect("text");
+    for side in ["right", "left"] {
+        let placement = format!("\"{side}.placement\":\"{side}\"");
+        assert!(values.contains(&placement), "{values}");
+    }
 }

@@ -29,6 +29,7 @@ use std::collections::BTreeMap;
 
 use self::hands::Hands;
 use self::shape::Shapes;
+use super::direction::{Compass, Direction};
 use super::nonmanual::{Nonmanual, NonmanualPart};
 use super::notated::Notated;
 use crate::component::{Component, Field, HandRef, Phase};
@@ -60,6 +61,7 @@ pub struct Mapper<'i> {
     /// The values of each component and feature, by id and alias.
     words: BTreeMap<(Component, Option<&'i str>), BTreeMap<&'i str, &'i str>>,
     shapes: Shapes<'i>,
+    left_handed: bool,
 }
 
 impl<'i> Mapper<'i> {
@@ -89,7 +91,20 @@ impl<'i> Mapper<'i> {
             );
             words.insert(key, own);
         }
-        Self { words, shapes }
+        Self {
+            words,
+            shapes,
+            left_handed: false,
+        }
+    }
+
+    /// Maps what the hands of a left-handed signer do, if `left_handed`. Their notation is that of a right-handed
+    /// signer, so left and right are exchanged in values, which are the signer's own sides; sides that count from
+    /// the acting hand stay.
+    #[must_use]
+    pub fn of_left_handed(mut self, left_handed: bool) -> Self {
+        self.left_handed = left_handed;
+        self
     }
 
     /// Returns the component values of a sign.
@@ -146,16 +161,17 @@ impl<'i> Mapper<'i> {
         for step in steps {
             let mut own = Vec::new();
             for value in step {
-                match known.and_then(|known| known.get(value.word.as_str())) {
+                let word = if self.left_handed && hand.is_some() {
+                    mirrored(component, feature, &value.word)
+                } else {
+                    value.word.clone()
+                };
+                match known.and_then(|known| known.get(word.as_str())) {
                     Some(id) if own.iter().all(|(other, _)| other != id) => {
                         own.push((*id, value.exact));
                     }
                     Some(_) => {}
-                    None => lost.add(format!(
-                        "{} has no {}",
-                        name(component, feature),
-                        value.word
-                    )),
+                    None => lost.add(format!("{} has no {word}", name(component, feature))),
                 }
             }
             let same = |before: &Vec<(&str, bool)>| {
@@ -195,6 +211,31 @@ fn name(component: Component, feature: Option<&str>) -> String {
         || component.to_string(),
         |feature| format!("{component}.{feature}"),
     )
+}
+
+/// Returns the value for the mirror image across the signer's middle.
+fn mirrored(component: Component, feature: Option<&str>, word: &str) -> String {
+    let other = match (component, feature) {
+        (Component::Orientation, Some("palm")) => word
+            .parse()
+            .ok()
+            .map(|it: Compass| it.mirrored().to_string()),
+        (Component::Orientation, Some("fingers")) | (Component::Movement, Some("direction")) => {
+            word.parse()
+                .ok()
+                .map(|it: Direction| it.mirrored().to_string())
+        }
+        (Component::Placement, None) => {
+            let parts = word.split('-').map(|part| match part {
+                "left" => "right",
+                "right" => "left",
+                part => part,
+            });
+            Some(parts.collect::<Vec<_>>().join("-"))
+        }
+        _ => None,
+    };
+    other.unwrap_or_else(|| word.to_owned())
 }
 
 /// A value as an inventory spells it, and whether it means the same as the notation.

@@ -274,6 +274,75 @@ fn handshapes_without_a_value_get_the_nearest_one() {
 }
 
 #[test]
+fn values_of_a_left_handed_signer_are_the_signers_own_left_and_right() {
+    let shown = |place: Place, left_handed: bool| {
+        let mut start = posture(flat(), place);
+        start.extended = Each::Shared(Aim::at(Direction::LEFT));
+        start.palm = Each::Shared(Aim::at(Compass::Dl));
+        let part = Manual {
+            posture: start,
+            actions: vec![toward(Direction::RIGHT, None)],
+            ..Manual::default()
+        };
+        let mut notated = Notated::default();
+        notated.sign.parts.push(part);
+        let gaze = Act::new(NonmanualPart::Gaze, "LE");
+        notated
+            .nonmanual
+            .push(NonmanualPart::Gaze.tier(), vec![gaze]);
+        let mapper = Mapper::new(builtin()).of_left_handed(left_handed);
+        let mapped = mapper.map(&notated);
+        assert_eq!(mapped.lost, [""; 0]);
+        let said = |name: &str| {
+            let mut values = mapped.values.iter();
+            let value = values.find(|it| it.field.to_string() == name);
+            value.map_or("", |it| &it.value).to_owned()
+        };
+        [
+            "dominant.configuration",
+            "dominant.orientation.fingers",
+            "dominant.orientation.palm",
+            "dominant.placement",
+            "dominant.movement.direction",
+            "nonmanual.gaze",
+        ]
+        .map(said)
+    };
+    for (place, right_handed, left_handed) in [
+        // In space a side is the signer's own; on the body it counts from the acting hand.
+        (
+            at(BodyLocation::Shoulders, Some(Side::LeftBeside), None),
+            "high-left",
+            "high-right",
+        ),
+        (
+            at(BodyLocation::Chest, Some(Side::RightBeside), None),
+            "right",
+            "left",
+        ),
+        (
+            at(
+                BodyLocation::Cheek,
+                Some(Side::LeftAt),
+                Some(Contact::Touch),
+            ),
+            "cheek-contra",
+            "cheek-contra",
+        ),
+        (at(BodyLocation::Chin, None, None), "chin", "chin"),
+    ] {
+        assert_eq!(
+            shown(place.clone(), false),
+            ["flat", "left", "down-left", right_handed, "right", "left"]
+        );
+        assert_eq!(
+            shown(place, true),
+            ["flat", "right", "down-right", left_handed, "left", "left"]
+        );
+    }
+}
+
+#[test]
 fn face_and_body_get_values_and_unknown_ones_are_reported() {
     let mut notated = Notated::default();
     for (part, tag) in [
