@@ -277,6 +277,41 @@ mod tests {
     use super::super::fixtures::{PLAIN, body};
     use super::*;
 
+    /// Returns the body with every bone of its limbs along the joint's X axis, as Maya writes them, backwards on the
+    /// right side if `mirrored`; the trunk branches off sideways of its own axis.
+    fn along_x(mirrored: bool) -> Skeleton {
+        let mut joints = body(PLAIN).joints().to_vec();
+        for joint in &mut joints {
+            let part: Part = joint.name.parse().expect("a part");
+            let back = mirrored && part.side() == Some(Side::Right);
+            joint.offset = match part {
+                Part::Hips | Part::Spine | Part::Thigh(_) => joint.offset,
+                Part::Chest | Part::Neck | Part::Head | Part::Clavicle(_) => {
+                    DVec3::new(joint.offset.y, -joint.offset.x, joint.offset.z)
+                }
+                _ => DVec3::X * joint.offset.length() * if back { -1.0 } else { 1.0 },
+            };
+        }
+        Skeleton::new(joints).expect("a tree")
+    }
+
+    #[test]
+    fn a_rest_pose_along_one_axis_is_no_reference() {
+        let lowered = |lowered| body(super::super::fixtures::Wear { lowered, ..PLAIN });
+        for (skeleton, is_posed) in [
+            (along_x(false), false),
+            (along_x(true), false),
+            (lowered(0.0), true),
+            (lowered(0.8), true),
+            (lowered(1.5), true),
+            // Both arms straight up.
+            (lowered(-1.5), true),
+        ] {
+            let anatomy = Anatomy::detect(&skeleton);
+            assert_eq!(anatomy.is_posed(), is_posed);
+        }
+    }
+
     #[test]
     fn a_head_whose_top_is_measured_gives_its_own_height() {
         for (top, measured) in [(0.16, false), (0.19, false), (0.26, true), (0.32, true)] {

@@ -175,7 +175,8 @@ impl Anatomy {
     pub fn with_reference(mut self, skeleton: &Skeleton, model: &ModelPose) -> Self {
         self.measures = Measures::of(&self, skeleton, model);
         let axes = measures::trunk_axes(&self, model);
-        self.posed = axes.is_some_and(|[_, up, _]| !self.arms_stick_out(model, up));
+        self.posed = axes
+            .is_some_and(|[_, up, _]| !self.arms_stick_out(model, up) && self.can_stand(model, up));
         let turned = axes.map(|[left, up, forward]| {
             DQuat::from_mat3(&DMat3::from_cols(left, up, forward)).normalize()
         });
@@ -195,6 +196,22 @@ impl Anatomy {
             return false;
         };
         right.dot(left) > 0.9 && right.dot(up).abs() < 0.5
+    }
+
+    /// Returns whether no leg points up, and not one arm straight up and the other down. Both happen if every bone lies
+    /// along one local axis, and only the trunk's bones have places of their own.
+    fn can_stand(&self, model: &ModelPose, up: DVec3) -> bool {
+        let rise = |from: Part, to: Part| {
+            let bone = model.position(self.joint(to)?) - model.position(self.joint(from)?);
+            Some(bone.try_normalize()?.dot(up))
+        };
+        let legs = Side::BOTH.map(|side| rise(Part::Thigh(side), Part::Shin(side)));
+        let arms = Side::BOTH.map(|side| rise(Part::UpperArm(side), Part::Forearm(side)));
+        let opposite = match arms {
+            [Some(right), Some(left)] => right * left < -0.64,
+            _ => false,
+        };
+        !opposite && legs.into_iter().flatten().all(|rise| rise < 0.5)
     }
 
     /// Returns the direction in which the elbow points, in the upper arm's space: as it is bent in `model`; if it is
@@ -226,8 +243,8 @@ impl Anatomy {
         self.with_reference(clip.skeleton(), &clip.model_pose(0))
     }
 
-    /// Returns whether the reference posture is possible for a body: it shows up, left and forward, and the arms do not
-    /// both point in the same direction.
+    /// Returns whether the reference posture is possible for a body: it shows up, left and forward, the arms do not both
+    /// point sideways in the same direction nor one up and one down, and no leg points up.
     #[must_use]
     pub fn is_posed(&self) -> bool {
         self.posed
