@@ -65,7 +65,7 @@ impl Course {
         (!frames.is_empty()).then_some(Self { frames, steps })
     }
 
-    /// Returns the value at a time of the recording's clock; `None` where nothing was measured.
+    /// Returns the value at a time of the recording's clock; `None` if nothing was measured.
     fn value(&self, at: i64) -> Option<f64> {
         let near = self.steps.0 / 2 + 1;
         let next = self.frames.partition_point(|(own, _)| *own <= at);

@@ -72,7 +72,7 @@ pub(crate) struct Performance {
     pub(crate) address: String,
     /// The recording's name.
     pub(crate) name: String,
-    /// Numbers of the requested channels at [`RATE`] from M1 on; `None` if unknown. Where nothing was measured they are
+    /// Numbers of the requested channels at [`RATE`] from M1 on; `None` if unknown. If nothing was measured at a time, they are
     /// no number.
     pub(crate) columns: Vec<Option<Vec<f64>>>,
     /// M1 to M5 in frames.

@@ -484,7 +484,7 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
         let got = again.model_pose(frame).rotation(own);
         assert!(want.angle_between(got) < 1e-3, "{frame}");
     }
-    // The end of a hand is where it is in the clip, seen from the hand.
+    // Seen from the hand, its end has the same place as in the clip.
     let end = |clip: &Clip, hand: usize| {
         let joint = &clip.skeleton().joints()[hand];
         let pose = clip.model_pose(3);

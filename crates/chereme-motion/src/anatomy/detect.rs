@@ -223,7 +223,7 @@ impl<'a> Finder<'a> {
     }
 
     /// Assigns the parts of a digit to its joints, from the metacarpal or the base on. A thumb of four joints or more
-    /// that starts inside the hand, as `metacarpal` tells, has a joint before its own metacarpal, which is no part.
+    /// that starts inside the hand, as `metacarpal` says, has a joint before its own metacarpal, which is no part.
     pub(super) fn assign_digit(
         &mut self,
         side: Side,

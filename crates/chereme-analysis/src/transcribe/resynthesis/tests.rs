@@ -240,7 +240,7 @@ fn a_movement_that_is_misread_is_replaced_with_its_features() {
     );
 }
 
-/// An animator that turns every hand otherwise than it is written, by the same rotation.
+/// An animator that turns every hand farther than it is written, by the same rotation.
 struct Turns {
     held: Held,
     by: DQuat,
