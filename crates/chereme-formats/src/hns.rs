@@ -2,15 +2,19 @@
 //!
 //! A line holds a gloss, a tab and HamNoSys, as characters, as names of symbols or as numbers of
 //! characters (`U+E001`). The text before the first symbol of a line is its gloss, whatever separates the
-//! two; a line may have none.
+//! two; a line may have none. Of several columns before the symbols, the one that names the signs is the gloss.
 
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
+use std::collections::BTreeSet;
+
 use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
 
 /// The number of leading bytes that decide whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
+/// The most columns before the symbols among which glosses are looked for.
+const MOST_COLUMNS: usize = 16;
 
 /// A notated sign and its line.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,13 +56,18 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<Finding>), Error> {
         _ => Error::Nothing,
     })?;
     let mut entries = Vec::new();
+    let glosses = gloss_column(&text);
     for (line, text) in (1..).zip(text.lines()) {
         if mended(text).is_some() {
             findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
         let text = &*in_plain_symbols(text);
         match begin(text) {
-            Some(at) => entries.push(entry(line, text.split_at(at), &mut findings)),
+            Some(at) => {
+                let (before, symbols) = text.split_at(at);
+                let gloss = gloss(line, before, glosses, &mut findings);
+                entries.push(entry(line, (gloss, symbols), &mut findings));
+            }
             None if text.trim().is_empty() => {}
             None => findings.add("lines without HamNoSys", || {
                 Finding::warning(line, "the line holds no HamNoSys; it was left out")
@@ -134,8 +143,76 @@ fn begin(line: &str) -> Option<usize> {
     [line.find(character), named].into_iter().flatten().min()
 }
 
+/// Returns the texts that tabs part before the symbols of a line.
+fn columns(before: &str) -> Vec<&str> {
+    let columns = before.trim_end_matches('\t').split('\t');
+    columns.map(|text| text.trim_matches(parting)).collect()
+}
+
+/// Returns the column before the symbols that holds the glosses, counted from 0: the first one with many different texts
+/// that are letters for the most part. A number, a code or a language is no gloss.
+fn gloss_column(text: &str) -> usize {
+    let mut seen: Vec<(BTreeSet<String>, usize, usize)> = Vec::new();
+    for line in text.lines().filter(|line| line.contains('\t')) {
+        let line = in_plain_symbols(line);
+        let before = begin(&line).map_or("", |at| &line[..at]);
+        for (at, text) in columns(before).into_iter().enumerate().take(MOST_COLUMNS) {
+            if seen.len() == at {
+                seen.push((BTreeSet::new(), 0, 1));
+            }
+            let (texts, letters, all) = &mut seen[at];
+            let count = text.chars().filter(|c| c.is_alphabetic()).count();
+            *letters += count;
+            *all += text.chars().count();
+            if count > 0 {
+                texts.insert(text.to_owned());
+            }
+        }
+    }
+    let most = seen
+        .iter()
+        .map(|(texts, ..)| texts.len())
+        .max()
+        .unwrap_or_default();
+    let named = |(texts, letters, all): &(BTreeSet<String>, usize, usize)| {
+        texts.len() * 2 >= most && letters * 2 >= *all
+    };
+    let lettered = || seen.iter().position(|(texts, ..)| texts.len() == most);
+    seen.iter()
+        .position(named)
+        .or_else(lettered)
+        .unwrap_or_default()
+}
+
+/// Returns the gloss among the columns before the symbols of a line, and reports the others.
+fn gloss<'t>(line: u64, before: &'t str, column: usize, findings: &mut Findings) -> &'t str {
+    let columns = columns(before);
+    let others = columns.len() > 1 && columns.iter().filter(|text| !text.is_empty()).count() > 1;
+    if !others {
+        return before;
+    }
+    // A line with fewer columns than the others has its gloss in the last one.
+    let gloss = columns.get(column).or(columns.last()).copied();
+    findings.add("columns beside the gloss", || {
+        Finding::note(
+            line,
+            format!(
+                "of the columns before HamNoSys, number {} was taken for the gloss: {:?}; the others were left out",
+                column + 1,
+                gloss.unwrap_or_default()
+            ),
+        )
+        .with_remedy("if another one is the gloss, leave out the others, or save the file as a table with titles: .tsv")
+    });
+    gloss.unwrap_or_default()
+}
+
+/// Returns whether a character stands between a gloss and its notation.
+fn parting(c: char) -> bool {
+    c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"')
+}
+
 fn entry(line: u64, (gloss, text): (&str, &str), findings: &mut Findings) -> HnsSign {
-    let parting = |c: char| c.is_whitespace() || matches!(c, ',' | ';' | ':' | '=' | '|' | '"');
     let (gloss, text) = (
         gloss.trim_matches(parting),
         text.trim().trim_end_matches('"'),
@@ -224,6 +301,37 @@ mod tests {
                 (4, "B".to_owned(), flat.to_owned())
             ]
         );
+    }
+
+    #[test]
+    fn of_several_columns_before_the_symbols_one_is_the_gloss() {
+        let flat = "hamflathand hamextfingeru hampalml";
+        for (lines, wanted) in [
+            (
+                &["0\tDERTIEN_13\t", "1\tTWEE_2\t", "2\tTWEE_2\t"][..],
+                ["DERTIEN_13", "TWEE_2", "TWEE_2"],
+            ),
+            (
+                &["A\tNGT\tx", "BON JOUR\tNGT\ty", "C\tNGT\tz"],
+                ["A", "BON JOUR", "C"],
+            ),
+            (
+                &["S0001\tA-A\tthe first", "S0002\tBOL\t", "\tC\t"],
+                ["A-A", "BOL", "C"],
+            ),
+            (&["A\t", "B", "4\t"], ["A", "B", "4"]),
+        ] {
+            let text: Vec<String> = lines.iter().map(|it| format!("{it}\t{flat}")).collect();
+            let found: Vec<String> = glosses(&text.join("\n"))
+                .into_iter()
+                .map(|it| it.1)
+                .collect();
+            assert_eq!(found, wanted, "{lines:?}");
+        }
+        let (_, findings) = read(format!("0\tDERTIEN_13\t{flat}").as_bytes()).expect("read");
+        let wanted = "of the columns before HamNoSys, number 2 was taken for the gloss: \"DERTIEN_13\"; \
+                      the others were left out";
+        assert_eq!(findings[0].message, wanted);
     }
 
     #[test]

@@ -264,6 +264,26 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "la première ligne contient du HamNoSys : elle a été prise pour un signe, pas pour des titres",
     ),
     (
+        "the titles of the columns are in line {line}; the text above them was left out: {text}",
+        "les titres des colonnes sont à la ligne {line} ; le texte au-dessus a été laissé de côté : {text}",
+    ),
+    (
+        "values that programs write for an empty cell were taken as unset: {values}",
+        "des valeurs que des programmes écrivent pour une case vide ont été prises pour non renseignées : {values}",
+    ),
+    (
+        "if one of them is a value of the component, write it in another spelling in the table",
+        "si l’une d’elles est une valeur de la composante, écrivez-la autrement dans la table",
+    ),
+    (
+        "of the columns before HamNoSys, number {n} was taken for the gloss: {gloss}; the others were left out",
+        "des colonnes avant le HamNoSys, la {n} a été prise pour la glose : {gloss} ; les autres ont été laissées de côté",
+    ),
+    (
+        "if another one is the gloss, leave out the others, or save the file as a table with titles: .tsv",
+        "si une autre est la glose, enlevez les autres, ou enregistrez le fichier comme table avec des titres : .tsv",
+    ),
+    (
         "write titles above the columns: gloss, hamnosys",
         "écrivez des titres au-dessus des colonnes : gloss, hamnosys",
     ),
