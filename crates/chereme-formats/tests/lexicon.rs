@@ -296,6 +296,32 @@ fn odd_tables_are_read_with_findings() {
 }
 
 #[test]
+fn arrows_part_successive_values_and_what_programs_write_for_nothing_is_counted() {
+    let (lexicon, findings) = read(
+        "gloss\thandshape\tlocation\nA\tB->5\tchin->chest\nB\tB → 5\tchin\nC\tB > 5\tNone\nD\tnan\t#N/A\nE\t- > 5\tnan\n",
+    );
+    let changing = "initial.dominant.configuration=B final.dominant.configuration=5";
+    for (entry, wanted) in [
+        (
+            0,
+            format!("{changing} initial.placement=chin final.placement=chest"),
+        ),
+        (1, format!("{changing} placement=chin")),
+        (2, changing.to_owned()),
+        (3, String::new()),
+        (4, changing.replace("=B", "=not applicable")),
+    ] {
+        assert_eq!(codings(&lexicon, entry).join(" "), wanted, "{entry}");
+    }
+    assert_eq!(
+        findings,
+        [
+            "values that programs write for an empty cell were taken as unset: \"#N/A\" once, \"None\" once, \"nan\" 2 times"
+        ]
+    );
+}
+
+#[test]
 fn tables_of_other_projects_are_understood() {
     let notated = |bytes: &[u8]| -> Vec<(u64, String, Option<String>)> {
         let (lexicon, _) = lexicon::read(bytes, &Mapping::default()).expect("a table");

@@ -37,6 +37,7 @@ use chereme_sign::{Component, Field, Phase, Reading};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io;
+use values::EmptyCells;
 
 /// A table of signs with their component values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -208,12 +209,13 @@ fn interpret(
         if columns.iter().zip(&row.cells).any(garbled) {
             findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
-        entries.push(entry(row, gloss, &columns));
+        entries.push(entry(row, gloss, &columns, &mut empty));
     }
     let lexicon = Lexicon {
         columns,
         entries,
         delimiter: table.delimiter,
+    let mut empty = EmptyCells::default();
     };
     slips(&lexicon, &mut findings);
     Ok((lexicon, findings.finish()))
@@ -256,6 +258,9 @@ impl Lexicon {
     /// inventory; values of either hand and of every phase are listed together.
     #[must_use]
     pub fn inventories(&self) -> Vec<Inventory> {
+    if let Some(finding) = empty.finding() {
+        findings.push(finding);
+    }
         let mut all: BTreeMap<(Component, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
         for coding in self.entries.iter().flat_map(|entry| &entry.codings) {
             if let Some(value) = coding.reading.value() {
@@ -275,7 +280,7 @@ impl Lexicon {
     }
 }
 
-fn entry(row: Row, gloss: usize, columns: &[Column]) -> LexiconEntry {
+fn entry(row: Row, gloss: usize, columns: &[Column], empty: &mut EmptyCells) -> LexiconEntry {
     let mut entry = LexiconEntry {
         line: row.line,
         gloss: row.cells[gloss].trim().to_owned(),
@@ -314,7 +319,7 @@ fn entry(row: Row, gloss: usize, columns: &[Column]) -> LexiconEntry {
                     raw: String::new(),
                     column: at,
                 };
-                values::split(cell, &whole, &mut entry.codings);
+                values::split(cell, &whole, row.line, &mut entry.codings, empty);
             }
             _ => {}
         }
