@@ -322,6 +322,45 @@ fn arrows_part_successive_values_and_what_programs_write_for_nothing_is_counted(
 }
 
 #[test]
+fn titles_are_found_below_headings_and_by_their_capital_letters() {
+    let rows = "A;B;chin\n\"B, C\";5;nose\n";
+    for (text, line, found) in [
+        (
+            format!("sep=;\nNL gloss;Handshape strong;Location\n{rows}"),
+            3,
+            "",
+        ),
+        (
+            format!("Lexicon, NGT\n\nNL gloss;Handshape strong;Location\n{rows}"),
+            4,
+            "the titles of the columns are in line 3; the text above them was left out: \"Lexicon, NGT\"",
+        ),
+        (
+            format!("Gloss list;;\n;;\nNL gloss;Handshape strong;Location\n{rows}"),
+            4,
+            "the titles of the columns are in line 3; the text above them was left out: \"Gloss list;; / ;;\"",
+        ),
+        (format!("NlGloss;HandshapeStrong;Location\n{rows}"), 2, ""),
+        (format!("nlGloss;handshapeStrong;LOCATION\n{rows}"), 2, ""),
+    ] {
+        let (lexicon, findings) = read(&text);
+        assert_eq!(findings.join("; "), found, "{text}");
+        let entries = lexicon.entries.iter().map(|it| (&*it.gloss, it.line));
+        let entries: Vec<_> = entries.collect();
+        assert_eq!(entries, [("A", line), ("B, C", line + 1)], "{text}");
+        assert_eq!(
+            codings(&lexicon, 0),
+            ["dominant.configuration=B", "placement=chin"],
+            "{text}"
+        );
+    }
+    // A table of one column, and one whose second row is longer, keep their first row.
+    for text in ["gloss\nA, B\nC\n", "gloss,Location\nA,chin,,,more\n"] {
+        assert_eq!(read(text).0.columns[0].title, "gloss", "{text}");
+    }
+}
+
+#[test]
 fn tables_of_other_projects_are_understood() {
     let notated = |bytes: &[u8]| -> Vec<(u64, String, Option<String>)> {
         let (lexicon, _) = lexicon::read(bytes, &Mapping::default()).expect("a table");

@@ -272,7 +272,10 @@ fn gloss_column(columns: &[Column]) -> Option<usize> {
         columns.iter().enumerate().filter(gloss)
     };
     let mapped = glosses().find(|(_, column)| column.confidence >= 1.0);
-    let annotation = |title: &str| normal(title).split(' ').any(|word| word == "annotation");
+    let annotation = |title: &str| {
+        let words = normal(&with_parted_words(title));
+        words.split(' ').any(|word| word == "annotation")
+    };
     let annotated = || glosses().find(|(_, column)| annotation(&column.title));
     let found = mapped.or_else(annotated).or_else(|| glosses().next());
     found.map(|(at, _)| at)
@@ -352,7 +355,36 @@ fn likely_gloss(columns: &[Column]) -> Option<usize> {
     called.or_else(first)
 }
 
+/// Returns a title such as `NlGloss` or `handshapeStrong` with a blank before each of its words.
+fn with_parted_words(title: &str) -> String {
+    let letters: Vec<char> = title.chars().collect();
+    let mut parted = String::with_capacity(title.len() + 4);
+    for (at, letter) in letters.iter().enumerate() {
+        let before = at.checked_sub(1).map(|at| letters[at]);
+        let is_lower = |letter: Option<&char>| letter.is_some_and(|it| it.is_lowercase());
+        let begins = before.is_some_and(|before| {
+            before.is_lowercase() || before.is_uppercase() && is_lower(letters.get(at + 1))
+        });
+        if letter.is_uppercase() && begins {
+            parted.push(' ');
+        }
+        parted.push(*letter);
+    }
+    parted
+}
+
+/// Returns the meaning of a column by its title, as written or by the words that capital letters part.
 fn column(title: &str, mapping: &Mapping) -> Column {
+    let whole = column_by(title, title, mapping);
+    let parted = with_parted_words(title);
+    if !whole.why.is_empty() || parted == title {
+        return whole;
+    }
+    column_by(title, &parted, mapping)
+}
+
+/// Returns the meaning of a column by a spelling of its title.
+fn column_by(title: &str, spelled: &str, mapping: &Mapping) -> Column {
     let column = |target: Option<&Target>, language, confidence, why| Column {
         title: title.to_owned(),
         meaning: target.map_or(Meaning::Note, |target| meaning(target, language)),
@@ -367,7 +399,7 @@ fn column(title: &str, mapping: &Mapping) -> Column {
             format!("the mapping says so ({entry:?})"),
         );
     }
-    let whole = normal(title);
+    let whole = normal(spelled);
     if OWN.contains(&title) {
         let why = "a table of tokens that Chereme wrote has it".to_owned();
         return column(None, None, 1.0, why);
@@ -390,7 +422,7 @@ fn column(title: &str, mapping: &Mapping) -> Column {
             return column(Some(target), name, 0.95, format!("its title is {text:?}"));
         }
     }
-    if let Some(target) = Target::of_title(title) {
+    if let Some(target) = Target::of_title(spelled) {
         return column(Some(&target), None, 1.0, "its title is a field".to_owned());
     }
     let within = |known: &&String| known.split(' ').all(|word| words.contains(&word));

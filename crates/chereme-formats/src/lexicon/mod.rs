@@ -29,7 +29,7 @@ pub use columns::{Column, Meaning};
 use crate::finding::Finding;
 use crate::hns::{holds_symbols, mended_finding};
 use crate::roles::{Hands, Mapping};
-use crate::table::{Cells, Row, TableError, listed};
+use crate::table::{Cells, Row, TableError, decode, lines_above_titles, listed};
 use crate::tally::Findings;
 use chereme_sign::hamnosys::{in_plain_symbols, mended};
 use chereme_sign::text::{edit_distance, fold};
@@ -122,7 +122,8 @@ pub struct Inventory {
 
 /// Reads a table of lexicon codings.
 ///
-/// The first row determines the delimiter (tab, comma, semicolon, bar). Quotes, byte-order marks, Windows
+/// The first row determines the delimiter (tab, comma, semicolon, bar), or a line `sep=;` above it; lines of one cell
+/// above the titles are left out with a finding. Quotes, byte-order marks, Windows
 /// line ends and UTF-16 are understood; bytes that are not UTF-8 are read as Windows-1252. Rows without a
 /// gloss are left out with a finding; findings also name rows of another width, repeated glosses, columns
 /// that become attributes and values that look like slips.
@@ -135,9 +136,49 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
     let found = slpaa::read(bytes).or_else(|| json::read(bytes).ok().flatten());
     let table = match found {
         Some(table) => table,
-        None => Cells::read(bytes, &mut findings)?,
+        None => {
+            let text = decode(bytes, &mut findings)?;
+            let above = headings(&text, mapping);
+            if above > 0 {
+                findings.add("headings above the titles", || left_out(&text, above));
+            }
+            Cells::read_text(&text, above, false, &mut findings)?
+        }
     };
     interpret(table, mapping, findings)
+}
+
+/// Returns the number of lines above the titles, such as a heading and its date: lines of few cells, if one of the titles
+/// below them is that of a gloss.
+fn headings(text: &str, mapping: &Mapping) -> u64 {
+    const SURE: f64 = 0.9;
+    let is_sure = |column: &Column| {
+        matches!(column.meaning, Meaning::Gloss { .. }) && column.confidence >= SURE
+    };
+    let below = |above: u64| {
+        let table = Cells::read_text(text, above, false, &mut Findings::default()).ok()?;
+        let (lexicon, _) = interpret(table, mapping, Findings::default()).ok()?;
+        lexicon.columns.iter().any(is_sure).then_some(above)
+    };
+    lines_above_titles(text).and_then(below).unwrap_or(0)
+}
+
+/// Returns the finding that the lines above the titles were left out.
+fn left_out(text: &str, above: u64) -> Finding {
+    let lines = text
+        .lines()
+        .take(usize::try_from(above).unwrap_or(usize::MAX));
+    let lines: Vec<&str> = lines
+        .map(str::trim)
+        .filter(|line| !line.is_empty())
+        .collect();
+    let (line, texts) = (above + 1, lines.join(" / "));
+    Finding::note(
+        line,
+        format!(
+            "the titles of the columns are in line {line}; the text above them was left out: {texts:?}"
+        ),
+    )
 }
 
 /// Reads a lexicon from JSON as [`read`] does; `None` for anything else than JSON of such a form.
@@ -174,6 +215,7 @@ fn interpret(
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
     })?;
     let mut lines: BTreeMap<String, u64> = BTreeMap::new();
+    let mut empty = EmptyCells::default();
     let mut entries: Vec<LexiconEntry> = Vec::with_capacity(table.rows.len());
     for row in table.rows {
         let (line, name) = (row.line, row.cells[gloss].trim());
@@ -215,8 +257,10 @@ fn interpret(
         columns,
         entries,
         delimiter: table.delimiter,
-    let mut empty = EmptyCells::default();
     };
+    if let Some(finding) = empty.finding() {
+        findings.push(finding);
+    }
     slips(&lexicon, &mut findings);
     Ok((lexicon, findings.finish()))
 }
@@ -258,9 +302,6 @@ impl Lexicon {
     /// inventory; values of either hand and of every phase are listed together.
     #[must_use]
     pub fn inventories(&self) -> Vec<Inventory> {
-    if let Some(finding) = empty.finding() {
-        findings.push(finding);
-    }
         let mut all: BTreeMap<(Component, Option<&str>), BTreeMap<String, usize>> = BTreeMap::new();
         for coding in self.entries.iter().flat_map(|entry| &entry.codings) {
             if let Some(value) = coding.reading.value() {

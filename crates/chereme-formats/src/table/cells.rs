@@ -122,17 +122,30 @@ impl Cells {
         findings: &mut Findings,
     ) -> Result<Self, TableError> {
         let text = decode(bytes, findings)?;
-        let first = text
-            .lines()
-            .find(|line| !line.trim().is_empty())
-            .ok_or(TableError::Empty)?;
-        let delimiter = sniff(first);
+        Self::read_text(&text, 0, cut, findings)
+    }
+
+    /// Reads a table from text like [`Self::read_part`]; its first `above` lines are no part of the table.
+    pub(crate) fn read_text(
+        text: &str,
+        above: u64,
+        cut: bool,
+        findings: &mut Findings,
+    ) -> Result<Self, TableError> {
+        let mut filled = (1u64..)
+            .zip(text.lines())
+            .filter(|(line, text)| *line > above && !text.trim().is_empty());
+        let (first_line, first) = filled.next().ok_or(TableError::Empty)?;
+        let (above, delimiter) = match separator(first) {
+            Some(delimiter) => (first_line, delimiter),
+            None => (above, sniff(first)),
+        };
         let mut header: Option<Vec<String>> = None;
         let mut header_line = 1;
         let mut rows = Vec::new();
         let mut lacking = 0usize;
-        for Row { line, cells } in super::rows::split(&text, delimiter, cut, findings) {
-            if cells.iter().all(|cell| cell.trim().is_empty()) {
+        for Row { line, cells } in super::rows::split(text, delimiter, cut, findings) {
+            if line <= above || cells.iter().all(|cell| cell.trim().is_empty()) {
                 continue;
             }
             match &header {
@@ -271,6 +284,42 @@ fn printable(text: Cow<'_, str>) -> Result<Cow<'_, str>, TableError> {
 
 fn line_of(bytes: &[u8], at: usize) -> u64 {
     memchr::memchr_iter(b'\n', &bytes[..at]).count() as u64 + 1
+}
+
+/// Returns the delimiter that a line `sep=;` above a table names, as Excel writes it.
+fn separator(line: &str) -> Option<u8> {
+    let line = line.trim_matches([' ', '"', '\r', '\n']);
+    let (word, delimiter) = line.split_at_checked(4)?;
+    let named = match delimiter.as_bytes() {
+        [named @ (b'\t' | b',' | b';' | b'|')] => *named,
+        _ => return None,
+    };
+    word.eq_ignore_ascii_case("sep=").then_some(named)
+}
+
+/// The number of filled lines at the beginning of a table among which its row of titles is looked for.
+const LOOKED_AT: usize = 12;
+
+/// Returns the number of lines above the row of titles, if the lines before it have one filled cell,
+/// or at most half as many as the widest.
+pub(crate) fn lines_above_titles(text: &str) -> Option<u64> {
+    let filled = (1u64..).zip(text.lines());
+    let filled = filled.filter(|(_, line)| !line.trim().is_empty() && separator(line).is_none());
+    let first: Vec<(u64, &str)> = filled.take(LOOKED_AT).collect();
+    let cells = |line: &str, delimiter: u8| {
+        let cells = line.split(char::from(delimiter));
+        cells
+            .filter(|cell| !cell.trim_matches([' ', '"']).is_empty())
+            .count()
+    };
+    let (_, widest) = first
+        .iter()
+        .max_by_key(|(_, line)| cells(line, sniff(line)))?;
+    let delimiter = sniff(widest);
+    let widest = cells(widest, delimiter);
+    let is_wide = |line: &str| cells(line, delimiter) > (widest / 2).max(1);
+    let (line, _) = first.iter().find(|(_, line)| is_wide(line))?;
+    (*line > first.first()?.0).then(|| line - 1)
 }
 
 /// Returns the delimiter of the first row: tabs if there are several, else the most frequent outside quotes.

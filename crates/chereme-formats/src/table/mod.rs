@@ -9,5 +9,7 @@ mod cells;
 mod rows;
 
 pub use cells::TableError;
-pub(crate) use cells::{COLUMNS, Cells, PADDED, Row, WINDOWS, decode, listed, western};
+pub(crate) use cells::{
+    COLUMNS, Cells, PADDED, Row, WINDOWS, decode, lines_above_titles, listed, western,
+};
 pub use rows::{tab_rows, write_tab_rows};
