@@ -312,6 +312,25 @@ fn losses_of_the_symbol_form_are_reported() {
 }
 
 #[test]
+fn elements_with_the_prefix_of_a_namespace_are_read_like_those_without() {
+    let plain = document("<handconfig handshape=\"flat\" extfidir=\"u\" palmor=\"d\"/>");
+    let prefixed = plain
+        .replace("</", "</sg:")
+        .replace("<s", "<sg:s")
+        .replace("<h", "<sg:h");
+    let named = prefixed.replacen(
+        "<sg:sigml>",
+        "<sg:sigml xmlns:sg=\"http://example.org/sigml\">",
+        1,
+    );
+    let wanted = sigml::read(plain.as_bytes()).expect("it is SiGML");
+    for text in [prefixed, named] {
+        let (signs, findings) = sigml::read(text.as_bytes()).expect("it is SiGML");
+        assert_eq!((signs, findings), wanted.clone(), "{text}");
+    }
+}
+
+#[test]
 fn files_that_are_no_sigml_are_refused() {
     let deep = format!("<sigml>{}", "<sigmlsection>".repeat(100));
     let bomb = "<!DOCTYPE sigml [<!ENTITY a \"b\"><!ENTITY c \"&a;&a;\">]><sigml/>";

@@ -152,6 +152,11 @@ fn is_xml(c: char) -> bool {
     matches!(c, '\t' | '\n' | '\r' | ' '..='\u{d7ff}' | '\u{e000}'..='\u{fffd}' | '\u{10000}'..)
 }
 
+/// Returns the name of an element without the prefix of its namespace: `sigml` for `sg:sigml`.
+fn local(name: &str) -> &str {
+    name.rsplit_once(':').map_or(name, |(_, local)| local)
+}
+
 /// Builds elements from events.
 struct Builder<'a> {
     text: &'a str,
@@ -214,6 +219,7 @@ impl<'a> Builder<'a> {
             return Err(self.limit("the file has too many elements", ELEMENTS));
         }
         let (name, attributes) = self.text[end - len..end].split_at(name);
+        let name = local(name);
         let mut element = Element {
             line: Line(self.line),
             ..Element::new(name)
@@ -232,6 +238,10 @@ impl<'a> Builder<'a> {
                 return Err(self.limit("the element has too many attributes", ATTRIBUTES));
             }
             let key = attribute.key.0;
+            // It names the prefix that elements have, and is no part of a sign.
+            if key.starts_with("xmlns:") {
+                continue;
+            }
             let value = match attribute.normalized_value(XmlVersion::Implicit1_0) {
                 Ok(value) => value,
                 Err(_) => {
@@ -257,6 +267,7 @@ impl<'a> Builder<'a> {
     }
 
     fn end(&mut self, name: &str) -> Result<(), Error> {
+        let name = local(name);
         let Some(element) = self.open.pop() else {
             return Err(Error::Syntax {
                 line: self.line,
