@@ -3,10 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use chereme_formats::lexicon;
+use chereme_formats::lexicon::{self, Column, LexiconEntry, Meaning};
 use chereme_sign::text::{did_you_mean, fold, nearest};
 use rusqlite::Connection;
 use serde::Serialize;
+use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
@@ -191,12 +192,59 @@ struct Table {
     rows: Vec<(String, Vec<String>)>,
 }
 
-/// Returns the rows of the imported tables that have all the columns, if there are such tables.
+/// The entries of one table that the corpus still has: glosses and cells, by the line of the table.
+type Standing = BTreeMap<u64, Vec<(String, Map<String, Value>)>>;
+
+/// Returns the entries that the corpus has of each table, by the table's path, or its name if the path is not known.
+fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
+    let mut tables: BTreeMap<String, Standing> = BTreeMap::new();
+    for token in signs::lexicon_entries(connection)? {
+        let source = token.source.as_deref().unwrap_or_default();
+        let Ok(mut source) = serde_json::from_str::<Value>(source) else {
+            continue;
+        };
+        let place = source["path"].as_str().or(source["file"].as_str());
+        let (Some(place), Some(line)) = (place.map(str::to_owned), source["line"].as_u64()) else {
+            continue;
+        };
+        if let Value::Object(cells) = source["cells"].take() {
+            let lines = tables.entry(place).or_default();
+            let entries = lines.entry(line).or_default();
+            entries.push((token.gloss, cells));
+        }
+    }
+    Ok(tables)
+}
+
+/// Returns the gloss that the corpus has now for a row of a table; nothing if the corpus no longer has its sign.
+fn standing_gloss(table: &Standing, columns: &[Column], row: &LexiconEntry) -> Option<String> {
+    let entries = table.get(&row.line)?;
+    let same_cells = |cells: &Map<String, Value>| {
+        let filled = columns.iter().zip(&row.cells).filter(|(column, cell)| {
+            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
+        });
+        let own: BTreeMap<&str, &str> = filled
+            .map(|(column, cell)| (column.title.as_str(), cell.as_str()))
+            .collect();
+        own.len() == cells.len()
+            && own
+                .iter()
+                .all(|(title, cell)| cells.get(*title).and_then(Value::as_str) == Some(*cell))
+    };
+    let named = entries.iter().find(|(gloss, _)| *gloss == row.gloss);
+    // A sign that was renamed in the corpus is known by its cells.
+    let found = named.or_else(|| entries.iter().find(|(_, cells)| same_cells(cells)))?;
+    Some(found.0.clone())
+}
+
+/// Returns the rows of the imported tables that have all the columns, if there are such tables: those of the newest
+/// version of each table whose signs the corpus still has.
 fn of_tables(connection: &Connection, fields: &[String]) -> Result<Option<Table>> {
     let mut rows = Vec::new();
     let mut known: BTreeSet<String> = BTreeSet::new();
+    let (mut has_columns, tables) = (false, standing(connection)?);
     for file in recordings::lexicon_files(connection)? {
-        let Some(bytes) = recordings::source_bytes(connection, file)? else {
+        let Some(bytes) = recordings::source_bytes(connection, file.id)? else {
             continue;
         };
         let Ok((table, _)) = lexicon::read(&bytes, &Default::default()) else {
@@ -211,12 +259,18 @@ fn of_tables(connection: &Connection, fields: &[String]) -> Result<Option<Table>
         let Some(places) = fields.iter().map(place).collect::<Option<Vec<_>>>() else {
             continue;
         };
-        rows.extend(table.entries.into_iter().map(|entry| {
+        has_columns = true;
+        let place = file.path.as_ref().unwrap_or(&file.name);
+        let Some(entries) = tables.get(place) else {
+            continue;
+        };
+        rows.extend(table.entries.iter().filter_map(|entry| {
+            let gloss = standing_gloss(entries, &table.columns, entry)?;
             let cells = places.iter().map(|at| entry.cells[*at].trim().to_owned());
-            (entry.gloss, cells.collect())
+            Some((gloss, cells.collect()))
         }));
     }
-    if rows.is_empty() || fields.is_empty() {
+    if !has_columns || fields.is_empty() {
         let title = |field: &&String| field.parse::<chereme_sign::Field>().is_err();
         return match fields.iter().find(title) {
             None => Ok(None),

@@ -1,5 +1,6 @@
 //! Rows of signers, skeletons, recordings and their tracks.
 
+use std::collections::BTreeMap;
 use std::io::Read;
 
 use chereme_sign::Remedy;
@@ -337,15 +338,13 @@ fn source_file_row(row: &Row<'_>) -> rusqlite::Result<SourceFileRow> {
     })
 }
 
-/// Returns the stored files of lexicon tables, oldest first.
-pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<i64>> {
-    let mut statement = connection.prepare_cached(
-        "SELECT id FROM source_file WHERE kind = 'lexicon' AND data IS NOT NULL ORDER BY id",
-    )?;
-    let files = statement
-        .query_map([], |row| row.get(0))?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(files)
+/// Returns the newest version of each lexicon table whose bytes are stored, oldest first.
+pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<SourceFileRow>> {
+    let mut rows = source_files_where(connection, "data IS NOT NULL AND kind = ?1", "lexicon")?;
+    let place = |row: &SourceFileRow| row.path.clone().unwrap_or_else(|| row.name.clone());
+    let newest: BTreeMap<String, i64> = rows.iter().map(|row| (place(row), row.id)).collect();
+    rows.retain(|row| newest.get(&place(row)) == Some(&row.id));
+    Ok(rows)
 }
 
 /// Returns the bytes of a stored file.

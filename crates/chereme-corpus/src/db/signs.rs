@@ -488,3 +488,13 @@ pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
         .collect::<rusqlite::Result<_>>()?;
     Ok(rows)
 }
+/// Returns the entries of lexicons, of all signs.
+pub(crate) fn lexicon_entries(connection: &Connection) -> Result<Vec<TokenRow>> {
+    let sql = format!("{TOKEN} WHERE t.origin = ?1 ORDER BY t.id");
+    let mut statement = connection.prepare_cached(&sql)?;
+    let rows = statement
+        .query_map([Col(Origin::Lexicon)], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}
+

@@ -70,6 +70,49 @@ fn pairs_differ_in_one_field_and_name_it() {
 }
 
 #[test]
+fn pairs_count_only_rows_that_the_corpus_still_has() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.csv");
+    let counted = |corpus: &Corpus| {
+        let found = asked(corpus, &["handshape", "location"], Empty::Value);
+        let list = found
+            .list
+            .iter()
+            .map(|it| line(it).trim().replace('\t', " "));
+        (found.entries, list.collect::<Vec<_>>().join(", "))
+    };
+    let table = "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,chin\nD,B,nose\n";
+    std::fs::write(&file, table).expect("written");
+    let mut corpus = corpus_of(folder.path(), &file);
+    let both = "A B location, A C handshape";
+    assert_eq!(counted(&corpus), (4, both.to_owned()));
+    // The next version has another cell of C, and no D.
+    std::fs::write(
+        &file,
+        "gloss,handshape,location\nA,V,chin\nB,V,chest\nC,5,nose\n",
+    )
+    .expect("written");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    corpus
+        .import(&[file], &ImportOptions::default(), progress)
+        .expect("imported");
+    assert_eq!(counted(&corpus), (3, "A B location".to_owned()));
+    let renamed = crate::SignChange {
+        gloss: Some("E".to_owned()),
+        ..crate::SignChange::default()
+    };
+    let name = crate::address::Name::Text("A".to_owned());
+    corpus.change_sign(&name, &renamed).expect("renamed");
+    assert_eq!(counted(&corpus), (3, "B E location".to_owned()));
+    let what = ["sign:B".parse().expect("an address")];
+    corpus
+        .delete(&what, crate::DeleteOptions::default(), progress)
+        .expect("deleted");
+    assert_eq!(counted(&corpus), (2, String::new()));
+}
+
+#[test]
 fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     let Ok(shared) = std::env::var("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set: the lexicon was not counted");
