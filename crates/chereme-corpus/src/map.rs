@@ -17,6 +17,7 @@ use crate::inventories::{self, StoredInventory};
 use crate::picture::write_svg;
 use crate::progress::{Progress, Step, Unit};
 use crate::search::SearchOptions;
+use crate::suggest::single_values;
 
 /// The signs of a map and the components that place them.
 #[derive(Debug, Clone, Default)]
@@ -255,7 +256,7 @@ fn features(
                 let feature = field.feature.as_ref().map(ToString::to_string);
                 it.inventory.component == field.component && it.inventory.feature == feature
             };
-            for value in values.split(" > ").collect::<BTreeSet<_>>() {
+            for value in single_values(values).collect::<BTreeSet<_>>() {
                 add(&mut own, format!("{name}={value}"), WEIGHTS.0);
                 let known = inventories
                     .iter()

@@ -9,10 +9,11 @@ use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address};
-use crate::db::columns::{Origin, ValueState, phase_place};
+use crate::db::columns::{Origin, ValueState};
 use crate::db::recordings;
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
+use crate::export::compound;
 use crate::inventories;
 
 /// Suggestions from a sign.
@@ -59,10 +60,9 @@ pub struct Partner {
 
 /// The fewest equal fields that make a comparison meaningful.
 const LEAST_EQUAL: usize = 2;
-/// The most unused values that are listed for a field.
-const MOST_UNUSED: usize = 40;
 
-/// The values of a token by field, hands by their part in signing and phases in order: `beak > 5`.
+/// The values of a token by field, hands by their part in signing: `beak > 5` for successive values, `down + in` for
+/// simultaneous ones.
 type Coding = BTreeMap<String, String>;
 
 impl Corpus {
@@ -184,7 +184,7 @@ impl Corpus {
                 .iter()
                 .map(|value| &value.id)
                 .filter(|id| *id != value && !taken.is_some_and(|taken| taken.contains(*id)));
-            unused.insert(name.to_owned(), free.take(MOST_UNUSED).cloned().collect());
+            unused.insert(name.to_owned(), free.cloned().collect());
         }
         Ok(unused)
     }
@@ -203,7 +203,7 @@ pub(crate) fn coding_name(field: &Field) -> String {
 }
 
 fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
-    let mut values: BTreeMap<String, Vec<(u8, i64, &str)>> = BTreeMap::new();
+    let mut values: BTreeMap<String, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
     for row in rows {
         let Some(value) = row
             .value
@@ -227,16 +227,10 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
         } else {
             ""
         };
-        let phase = match row.phase {
-            Some(Phase::Initial) => 0,
-            Some(Phase::Middle(_)) => 1,
-            None => 2,
-            Some(Phase::Final) => 3,
-        };
-        let place = phase_place(row.phase);
         let mut add = |prefix: &str| {
             let field = format!("{prefix}{}{feature}", row.component);
-            values.entry(field).or_default().push((phase, place, value));
+            let phases = values.entry(field).or_default();
+            phases.entry(row.phase).or_default().push(value);
         };
         if weak {
             add("weak.");
@@ -247,14 +241,21 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
             add("weak.");
         }
     }
-    values
-        .into_iter()
-        .map(|(field, mut values)| {
-            values.sort();
-            let texts: Vec<&str> = values.into_iter().map(|(.., value)| value).collect();
-            (field, texts.join(" > "))
-        })
-        .collect()
+    let written = |(field, mut phases): (String, BTreeMap<Option<Phase>, Vec<&str>>)| {
+        phases.values_mut().for_each(|texts| texts.sort_unstable());
+        // A value of the whole sign may stand beside successive ones.
+        let whole = phases.remove(&None).map(|texts| texts.join(" + "));
+        let successive = (!phases.is_empty()).then(|| compound(&phases));
+        let texts: Vec<String> = whole.into_iter().chain(successive).collect();
+        (field, texts.join(" + "))
+    };
+    values.into_iter().map(written).collect()
+}
+
+/// Returns the single values of a field of a coding.
+pub(crate) fn single_values(text: &str) -> impl Iterator<Item = &str> {
+    let parts = text.split('>').flat_map(|part| part.split(" + "));
+    parts.map(str::trim).filter(|part| !part.is_empty())
 }
 
 /// Returns the number of equal fields, and the fields that differ, among those that both have.
@@ -276,7 +277,7 @@ fn compare(a: &Coding, b: &Coding) -> (usize, Vec<String>) {
 /// Returns a recipe that changes one field of a token with movement.
 fn recipe(token: &TokenRow, field: &str, to: &str) -> Option<String> {
     token.recording_id?;
-    if to.contains(" > ") {
+    if single_values(to).ne([to]) {
         return None;
     }
     let source = format!("token:{}", token.id);

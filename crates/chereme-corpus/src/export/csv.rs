@@ -320,8 +320,9 @@ fn text(row: &TokenValueRow) -> &str {
     }
 }
 
-/// Returns successive values separated by `>`, with an empty part for each phase without a value.
-fn compound(phases: &BTreeMap<Option<Phase>, Vec<&str>>) -> String {
+/// Returns simultaneous values separated by `+`, or successive ones by `>`, with an empty part for each phase without a
+/// value.
+pub(crate) fn compound(phases: &BTreeMap<Option<Phase>, Vec<&str>>) -> String {
     if let Some(texts) = phases.get(&None) {
         return texts.join(" + ");
     }

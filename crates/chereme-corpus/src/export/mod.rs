@@ -14,6 +14,8 @@ mod several;
 #[cfg(test)]
 mod tests;
 
+pub(crate) use csv::compound;
+
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};

@@ -113,6 +113,44 @@ fn pairs_count_only_rows_that_the_corpus_still_has() {
 }
 
 #[test]
+fn simultaneous_values_differ_from_successive_ones_and_all_unused_values_are_listed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.csv");
+    let table = "gloss,handshape,location,movement direction\nSEQ,B,chin,downwards > inwards\n\
+                 SIM,B,chin,\"downwards, inwards\"\nEND,B,chin,> inwards\nONE,B,chin,inwards\n\
+                 OTHER,5,chin,\"inwards, downwards\"\n";
+    std::fs::write(&file, table).expect("written");
+    let corpus = corpus_of(folder.path(), &file);
+    let fields = ["dominant.configuration", "placement", "movement.direction"];
+    let found = asked(&corpus, &fields, Empty::Value);
+    let list = found
+        .list
+        .iter()
+        .map(|it| line(it).trim().replace('\t', " "));
+    let direction = |pair: &str| format!("{pair} movement.direction");
+    let mut wanted: Vec<String> = ["END ONE", "END SEQ", "END SIM", "ONE SEQ", "ONE SIM"]
+        .map(direction)
+        .to_vec();
+    wanted.push("OTHER SIM dominant.configuration".to_owned());
+    wanted.push(direction("SEQ SIM"));
+    assert_eq!((found.homonyms, list.collect::<Vec<_>>()), (0, wanted));
+    let suggested = corpus
+        .suggest(&"SIM".parse().expect("an address"))
+        .expect("coded");
+    assert_eq!(
+        suggested.coding["movement.direction"],
+        "downwards + inwards"
+    );
+    let to: Vec<&str> = suggested.partners.iter().map(|it| it.to.as_str()).collect();
+    assert_eq!(to, ["5", "> inwards", "inwards", "downwards > inwards"]);
+    let inventory = chereme_sign::inventory::builtin_by_id("configurations");
+    let values = inventory.map_or(0, |it| it.values.len());
+    let unused = suggested.unused["dominant.configuration"].len();
+    // All but the sign's own handshape and that of OTHER.
+    assert!(values > 42 && unused == values - 2, "{unused} of {values}");
+}
+
+#[test]
 fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     let Ok(shared) = std::env::var("CHEREME_SHARED_DATA") else {
         eprintln!("CHEREME_SHARED_DATA is not set: the lexicon was not counted");
