@@ -8,11 +8,12 @@ use serde::Serialize;
 
 use super::compile::{Ask, Asked, Failure};
 use super::docs::{self, Docs};
+use super::known::KnownReading;
 use super::probe::{Doc, Probe, RowField, Text};
 use super::{compile, plan, wrong};
 use crate::Corpus;
 use crate::db::search::answers::{self, Named};
-use crate::db::search::terms::{TokenProperty, hands_of, phase_counts};
+use crate::db::search::terms::{TokenProperty, hands_of, phase_counts, text_of};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 
@@ -21,6 +22,10 @@ const MOST_CELLS: usize = 1_000_000;
 
 /// The row or column of the tokens that have no value of a field.
 pub const NO_VALUE: &str = "unset";
+/// The row or column of the tokens for which a field is coded as not applicable.
+const NOT_APPLICABLE: &str = "n/a";
+/// The row or column of the tokens for which a field is coded as unclear.
+const UNCLEAR: &str = "unclear";
 
 /// Number of tokens for each value of one field, or each pair of values of two fields.
 ///
@@ -35,7 +40,8 @@ pub struct Tally {
     pub fields: Vec<String>,
     /// The values of the second field, the most frequent first; empty if there is one field.
     pub columns: Vec<String>,
-    /// A row for each value of the first field, the most frequent first, [`NO_VALUE`] last.
+    /// A row for each value of the first field, the most frequent first; then those of `n/a` and `unclear`, and
+    /// [`NO_VALUE`] last. A value that is spelled like one of these is in quotation marks, as in a query.
     pub rows: Vec<TallyRow>,
 }
 
@@ -193,34 +199,62 @@ fn groups(ask: &Ask<'_>, found: &[Doc], subject: &Subject) -> Asked<Vec<(String,
     };
     groups.retain(|(_, docs)| !docs.is_empty());
     groups.sort_by(|a, b| b.1.len().cmp(&a.1.len()).then_with(|| a.0.cmp(&b.0)));
+    for (value, _) in &mut groups {
+        if [NOT_APPLICABLE, UNCLEAR, NO_VALUE].contains(&value.as_str()) {
+            *value = format!("\"{value}\"");
+        }
+    }
+    let mut unset = Docs::new();
+    if let Subject::Component(field) = subject {
+        for (name, reading) in [
+            (NOT_APPLICABLE, Reading::NotApplicable),
+            (UNCLEAR, Reading::Unclear),
+        ] {
+            groups.push((name.to_owned(), missing(ask, found, field, &reading)?));
+        }
+        unset = missing(ask, found, field, &Reading::Unset)?;
+    }
     let mut all: Docs = groups.iter().flat_map(|(_, docs)| docs).copied().collect();
     all.sort_unstable();
     all.dedup();
-    let rest = docs::difference(found, &all);
-    if !rest.is_empty() {
-        groups.push((NO_VALUE.to_owned(), rest));
-    }
+    unset.extend(docs::difference(found, &all));
+    unset.sort_unstable();
+    unset.dedup();
+    groups.push((NO_VALUE.to_owned(), unset));
+    groups.retain(|(_, docs)| !docs.is_empty());
     Ok(groups)
 }
 
 fn of_component(ask: &Ask<'_>, found: &[Doc], field: &Field) -> Asked<Vec<(String, Docs)>> {
     let known = ask.readings(field.component)?;
-    let hands = hands_of(field.hand);
     let mut groups = Vec::new();
     let values = known.parts.get(&field.feature).into_iter();
     for known in values.flat_map(|values| values.values()).flatten() {
-        let Reading::Value(value) = &known.reading else {
-            continue;
-        };
-        let own = known
-            .terms
-            .iter()
-            .filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
-        let texts: Vec<&str> = own.map(|(_, _, term)| term.as_str()).collect();
-        let docs = ask.run(&Probe::readings(texts))?;
-        groups.push((value.clone(), docs::intersection(&docs, found)));
+        if let Reading::Value(value) = &known.reading {
+            groups.push((value.clone(), having(ask, found, field, known)?));
+        }
     }
     Ok(groups)
+}
+
+/// Returns the documents for which a field is coded as one of the readings without a value.
+fn missing(ask: &Ask<'_>, found: &[Doc], field: &Field, reading: &Reading) -> Asked<Docs> {
+    let known = ask.readings(field.component)?;
+    let values = known.parts.get(&field.feature);
+    let alike = values.and_then(|values| values.get(text_of(reading)));
+    let known = alike.and_then(|alike| alike.iter().find(|it| it.reading == *reading));
+    known.map_or(Ok(Docs::new()), |known| having(ask, found, field, known))
+}
+
+/// Returns the documents that have a reading with the hand and the phase of a field.
+fn having(ask: &Ask<'_>, found: &[Doc], field: &Field, known: &KnownReading) -> Asked<Docs> {
+    let hands = hands_of(field.hand);
+    let terms = known.terms.iter();
+    let own =
+        terms.filter(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
+    let texts: Vec<&str> = own.map(|(_, _, term)| term.as_str()).collect();
+    let docs = ask.run(&Probe::readings(texts))?;
+    Ok(docs::intersection(&docs, found))
 }
 
 fn of_mark(ask: &Ask<'_>, found: &[Doc], mark: TokenProperty) -> Asked<Vec<(String, Docs)>> {

@@ -437,7 +437,8 @@ fn values_are_counted_by_one_field_and_by_two() {
             "chin 1 []",
             "head 1 []",
             "neutral 1 []",
-            "unset 2 []"
+            "n/a 1 []",
+            "unset 1 []"
         ]
     );
     let two = tally("", &["configuration", "signer"]).expect("counted");
@@ -449,7 +450,8 @@ fn values_are_counted_by_one_field_and_by_two() {
             "S 2 [1, 1, 0]",
             "U 2 [1, 1, 0]",
             "5 1 [0, 1, 0]",
-            "unset 2 [1, 0, 1]",
+            "unclear 1 [1, 0, 0]",
+            "unset 1 [0, 0, 1]",
         ]
     );
     for (fields, part) in [
@@ -461,6 +463,36 @@ fn values_are_counted_by_one_field_and_by_two() {
     ] {
         let error = tally("", fields).expect_err("refused").to_string();
         assert!(error.contains(part), "{error}");
+    }
+}
+
+#[test]
+fn counts_without_a_value_are_those_of_the_conditions_and_a_value_so_spelled_is_quoted() {
+    let mut sample = Sample::new();
+    for (gloss, coding) in [
+        ("ONE", &["dominant.configuration=B", "placement=n/a"][..]),
+        ("TWO", &["placement=unset", "placement=unclear"]),
+        ("THREE", &["placement=unclear"]),
+        ("FOUR", &["dominant.configuration=B"]),
+    ] {
+        sample.token(gloss, None, coding);
+    }
+    let word = TokenValueRow::of(
+        &"placement".parse().expect("a field"),
+        &Reading::Value("unset".to_owned()),
+    );
+    let five = sample.token("FIVE", None, &[]);
+    sample.work(|connection| signs::set_values(connection, five, &[word]));
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let fields = ["placement".to_owned()];
+    let tally = sample.corpus.tally("", &fields, progress).expect("counted");
+    let row = |row: &TallyRow| format!("{} {}", row.value, row.total);
+    let rows: Vec<String> = tally.rows.iter().map(row).collect();
+    assert_eq!(rows, ["\"unset\" 1", "n/a 1", "unclear 2", "unset 2"]);
+    for row in &tally.rows {
+        let found = sample.search(&format!("placement={}", row.value));
+        assert_eq!(found.total, row.total, "{}", row.value);
     }
 }
 
