@@ -1,6 +1,8 @@
 //! Compares words as people do: without regard to case and accents, and with tolerance for slips.
 
-use unicode_normalization::UnicodeNormalization;
+use std::borrow::Cow;
+
+use unicode_normalization::{UnicodeNormalization, is_nfc};
 
 /// Returns `text` without differences of case, accent, width and typographic punctuation.
 ///
@@ -22,6 +24,25 @@ pub fn fold(text: &str) -> String {
         }
     }
     folded
+}
+
+/// Returns a text with letters and their accents in one character each (Unicode's form NFC), so that texts that look the
+/// same are equal: some programs store `É` as one character, others as `E` and an accent.
+#[must_use]
+pub fn composed(text: &str) -> Cow<'_, str> {
+    match is_nfc(text) {
+        true => text.into(),
+        false => text.nfc().collect::<String>().into(),
+    }
+}
+
+/// Returns a text with letters and their accents in separate characters (Unicode's form NFD).
+#[must_use]
+pub fn decomposed(text: &str) -> Cow<'_, str> {
+    match text.is_ascii() {
+        true => text.into(),
+        false => text.nfd().collect::<String>().into(),
+    }
 }
 
 /// Returns whether a decomposed character is an accent or an invisible mark.

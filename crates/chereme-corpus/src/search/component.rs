@@ -7,7 +7,7 @@ use chereme_sign::text::nearest;
 use chereme_sign::{Component, Field, Reading};
 
 use super::compile::{Ask, Asked};
-use super::known::{KnownReading, KnownReadings};
+use super::known::{KnownReading, KnownReadings, Values};
 use super::plan::Plan;
 use super::probe::Probe;
 use super::vocabulary::Accepted;
@@ -51,8 +51,8 @@ impl ComponentTest {
                     Operator::IsNot => Operator::Is,
                     operator => operator,
                 };
-                ask.vocabulary
-                    .accepted(field.component, part.as_deref(), operator, &value.wanted)
+                let (of, stored) = ((field.component, part.as_deref()), known.parts.get(part));
+                ask.vocabulary.accepted(of, operator, &value.wanted, stored)
             });
             values.collect()
         };
@@ -230,11 +230,10 @@ fn parts_meant<'a>(
         return Ok(all.iter().collect());
     }
     let knows = |part: &&Option<String>| {
-        let part_name = part.as_deref();
-        let operator = Operator::Is;
+        let (of, stored) = ((field.component, part.as_deref()), known.parts.get(*part));
         let accepted = ask
             .vocabulary
-            .accepted(field.component, part_name, operator, &value.wanted);
+            .accepted(of, Operator::Is, &value.wanted, stored);
         accepted.known
             || known
                 .parts
@@ -258,8 +257,6 @@ fn parts_meant<'a>(
         _ => Ok(all.iter().collect()),
     }
 }
-
-type Values = std::collections::BTreeMap<String, Vec<KnownReading>>;
 
 fn has_value(values: &Values, accepted: &Accepted) -> bool {
     match accepted.listed() {

@@ -28,6 +28,13 @@ pub enum FindingKind {
         /// The narrower values, as they are coded.
         values: Vec<String>,
     },
+    /// `=` also matched values that an alias in an inventory makes equal to the named one.
+    Equal {
+        /// The field of the condition.
+        field: String,
+        /// The other values as they are coded, each with the number of its tokens.
+        values: Vec<(String, usize)>,
+    },
     /// A pattern or a list of features matched these values of the corpus.
     Matched {
         /// The values, as they are coded.
@@ -69,6 +76,7 @@ impl Finding {
     pub fn kind_name(&self) -> &'static str {
         match self.kind {
             FindingKind::Widened { .. } => "widened",
+            FindingKind::Equal { .. } => "equal",
             FindingKind::Matched { .. } => "matched",
             FindingKind::NotCoded { .. } => "not-coded",
             FindingKind::CannotMatch { .. } => "cannot-match",
@@ -126,6 +134,15 @@ impl Finding {
                 "{condition} counts narrower values, too: {}; == counts the value alone",
                 few(values)
             ),
+            FindingKind::Equal { field, values } => {
+                let counted = |(value, count): &(String, usize)| format!("{value} ({count})");
+                let values: Vec<String> = values.iter().map(counted).collect();
+                format!(
+                    "{condition} counts values that are equal to it by an alias, too: {}; {field}== with one of these \
+                     names counts it alone",
+                    values.join(", ")
+                )
+            }
             FindingKind::Matched { values } => format!("{condition} matched: {}", few(values)),
             FindingKind::NotCoded { component, part } => {
                 let field = part
@@ -184,6 +201,12 @@ impl Serialize for Finding {
         match &self.kind {
             FindingKind::Widened { values } | FindingKind::Matched { values } => {
                 map.serialize_entry("values", values)?;
+            }
+            FindingKind::Equal { values, .. } => {
+                let names: Vec<&String> = values.iter().map(|(value, _)| value).collect();
+                let counts: std::collections::BTreeMap<_, _> = values.iter().cloned().collect();
+                map.serialize_entry("values", &names)?;
+                map.serialize_entry("counts", &counts)?;
             }
             FindingKind::NotCoded { component, part } => {
                 map.serialize_entry("component", component)?;

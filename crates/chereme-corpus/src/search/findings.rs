@@ -1,6 +1,6 @@
 //! Findings about comparisons of components: values of the corpus that they matched, or alternatives.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::query::{Comparison, Pattern, Test, Value, Wanted, What};
 use chereme_sign::text::{fold, nearest};
@@ -10,6 +10,7 @@ use super::compile::{Ask, Asked};
 use super::component::ComponentTest;
 use super::finding::FindingKind;
 use super::known::{KnownReading, KnownReadings};
+use super::probe::Probe;
 use crate::db::search::terms::{hands_of, phase_counts};
 
 /// The number of names offered in place of one that matches nothing.
@@ -19,12 +20,12 @@ const OFFERED: usize = 20;
 pub(crate) fn report(ask: &Ask<'_>, test: &ComponentTest) -> Asked<()> {
     let known = ask.readings(test.field.component)?;
     for (number, value) in test.comparison.values.iter().enumerate() {
-        let kind = match &value.wanted {
+        let kinds = match &value.wanted {
             Wanted::Steps(_) | Wanted::Missing(_) => continue,
-            Wanted::Present => not_coded(test, &known),
-            Wanted::Named(_) | Wanted::Features(_) => of_value(test, &known, number, value),
+            Wanted::Present => not_coded(test, &known).into_iter().collect(),
+            Wanted::Named(_) | Wanted::Features(_) => of_value(ask, test, &known, number, value)?,
         };
-        if let Some(kind) = kind {
+        for kind in kinds {
             ask.find(written(test, value), value.at, kind);
         }
     }
@@ -48,24 +49,30 @@ fn written(test: &ComponentTest, value: &Value) -> String {
     .to_string()
 }
 
-fn of_value(
+fn of_value<'k>(
+    ask: &Ask<'_>,
     test: &ComponentTest,
-    known: &KnownReadings,
+    known: &'k KnownReadings,
     number: usize,
     value: &Value,
-) -> Option<FindingKind> {
+) -> Asked<Vec<FindingKind>> {
     let (mut meant, mut narrower) = (BTreeSet::new(), BTreeSet::new());
+    let mut aliases: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for (part, accepted) in &test.parts {
         let (Some(values), Some(accepted)) = (known.parts.get(part), accepted.get(number)) else {
             continue;
         };
-        let mut add = |folded: &str, alike: &[KnownReading]| {
+        let mut add = |folded: &str, alike: &'k [KnownReading]| {
             for known in alike.iter().filter(|it| is_of(&test.field, it)) {
                 let Reading::Value(text) = &known.reading else {
                     continue;
                 };
                 if accepted.means(text, folded) {
                     meant.insert(text.clone());
+                    if accepted.is_alias(folded) {
+                        let terms = aliases.entry(text.clone()).or_default();
+                        terms.extend(own_terms(&test.field, known));
+                    }
                 } else if accepted.fits(text, folded) {
                     narrower.insert(text.clone());
                 }
@@ -84,28 +91,46 @@ fn of_value(
         _ => None,
     };
     if meant.is_empty() && narrower.is_empty() {
-        return Some(not_coded(test, known).unwrap_or_else(|| nothing(test, known, literal)));
+        let why = not_coded(test, known).unwrap_or_else(|| nothing(test, known, literal));
+        return Ok(vec![why]);
     }
     let listed = |texts: BTreeSet<String>| texts.into_iter().collect();
-    match (literal, narrower.is_empty()) {
-        (None, _) => {
-            meant.append(&mut narrower);
-            Some(FindingKind::Matched {
-                values: listed(meant),
-            })
-        }
-        (Some(_), false) => Some(FindingKind::Widened {
-            values: listed(narrower),
-        }),
-        (Some(_), true) => None,
+    if literal.is_none() {
+        meant.append(&mut narrower);
+        return Ok(vec![FindingKind::Matched {
+            values: listed(meant),
+        }]);
     }
+    let mut kinds = Vec::new();
+    if !aliases.is_empty() {
+        let count = |(text, terms): (String, Vec<&str>)| -> Asked<(String, usize)> {
+            Ok((text, ask.run(&Probe::readings(terms))?.len()))
+        };
+        kinds.push(FindingKind::Equal {
+            field: test.field.to_string(),
+            values: aliases.into_iter().map(count).collect::<Asked<_>>()?,
+        });
+    }
+    if !narrower.is_empty() {
+        kinds.push(FindingKind::Widened {
+            values: listed(narrower),
+        });
+    }
+    Ok(kinds)
+}
+
+/// Returns the terms of a reading that have the hand and the phase of a field.
+fn own_terms<'k>(field: &Field, known: &'k KnownReading) -> impl Iterator<Item = &'k str> {
+    let hands = hands_of(field.hand);
+    let terms = known.terms.iter();
+    let own = terms
+        .filter(move |(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase));
+    own.map(|(_, _, term)| term.as_str())
 }
 
 /// Returns whether a reading has the hand and the phase of a field.
 fn is_of(field: &Field, known: &KnownReading) -> bool {
-    let hands = hands_of(field.hand);
-    let mut terms = known.terms.iter();
-    terms.any(|(hand, phase, _)| hands.contains(hand) && phase_counts(field.phase, phase))
+    own_terms(field, known).next().is_some()
 }
 
 /// Returns the finding that no value of a component, or of the named part, is coded.

@@ -19,8 +19,11 @@ use crate::error::Result;
 #[derive(Default)]
 pub(crate) struct KnownReadings {
     /// By part and then by folded value; readings without a value are listed under the text of their terms.
-    pub(crate) parts: BTreeMap<Option<String>, BTreeMap<String, Vec<KnownReading>>>,
+    pub(crate) parts: BTreeMap<Option<String>, Values>,
 }
+
+/// Readings by folded value.
+pub(crate) type Values = BTreeMap<String, Vec<KnownReading>>;
 
 /// A reading with its terms.
 pub(crate) struct KnownReading {

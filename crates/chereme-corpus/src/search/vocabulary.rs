@@ -2,11 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_sign::inventory::builtin_by_id;
 use chereme_sign::query::{Feature, Operator, Wanted};
-use chereme_sign::text::fold;
+use chereme_sign::text::{composed, fold};
 use chereme_sign::{Component, Inventory, InventoryValue};
 use rusqlite::Connection;
 
+use super::known::Values;
 use super::texts::Glob;
 use crate::error::Result;
 use crate::inventories;
@@ -20,6 +22,8 @@ pub(crate) struct Vocabulary(Vec<Known>);
 /// An inventory, and the folded spellings of each of its values.
 struct Known {
     inventory: Inventory,
+    /// Whether it comes with the program.
+    is_builtin: bool,
     folded: Vec<Vec<String>>,
 }
 
@@ -29,6 +33,7 @@ impl Known {
         let folded = values.map(|value| value.spellings().map(fold).collect());
         Self {
             folded: folded.collect(),
+            is_builtin: builtin_by_id(&inventory.id).is_some(),
             inventory,
         }
     }
@@ -44,6 +49,8 @@ impl Known {
 pub(crate) struct Accepted {
     /// Spellings of the wanted values, folded.
     folded: BTreeSet<String>,
+    /// The spellings among them that are accepted only because of an alias, folded.
+    aliases: BTreeSet<String>,
     /// Spellings of narrower values, folded.
     narrower: BTreeSet<String>,
     exact: BTreeSet<String>,
@@ -71,6 +78,21 @@ impl Accepted {
                 .exact_glob
                 .as_ref()
                 .is_some_and(|glob| glob.matches(value))
+    }
+
+    /// Adds the spellings of a wanted value that are not its names; all of them if it is asked for by an alias.
+    fn add_aliases(&mut self, value: &InventoryValue, folded: &[String], asked: Option<&str>) {
+        let aliases: BTreeSet<String> = value.aliases.iter().map(|text| fold(text)).collect();
+        let Some(asked) = asked else { return };
+        let by_alias = aliases.contains(asked);
+        let others = folded.iter().filter(|it| by_alias || aliases.contains(*it));
+        self.aliases
+            .extend(others.filter(|it| *it != asked).cloned());
+    }
+
+    /// Returns whether a stored value is accepted as the wanted value only because of an alias.
+    pub(crate) fn is_alias(&self, folded: &str) -> bool {
+        self.aliases.contains(folded)
     }
 
     /// Returns all accepted values, folded, if they can be listed.
@@ -132,17 +154,20 @@ impl Vocabulary {
             .collect()
     }
 
-    /// Returns the accepted values for a wanted value in a part of a component.
+    /// Returns the accepted values for a wanted value in a part of a component, of which `stored` are the values in use.
+    ///
+    /// If a value in use has exactly the wanted name, aliases do not make it equal to other values of its inventory.
     pub(crate) fn accepted(
         &self,
-        component: Component,
-        part: Option<&str>,
+        (component, part): (Component, Option<&str>),
         operator: Operator,
         wanted: &Wanted,
+        stored: Option<&Values>,
     ) -> Accepted {
         let exactly = operator == Operator::Exactly;
         let mut accepted = Accepted {
             folded: BTreeSet::new(),
+            aliases: BTreeSet::new(),
             narrower: BTreeSet::new(),
             exact: BTreeSet::new(),
             folded_glob: None,
@@ -153,10 +178,20 @@ impl Vocabulary {
             Wanted::Named(pattern) if exactly => {
                 let glob = Glob::exact(pattern);
                 let literal = glob.literal().is_some();
+                let in_use = glob.literal().is_some_and(|text| {
+                    let alike = stored.and_then(|stored| stored.get(&fold(text)));
+                    let mut alike = alike.into_iter().flatten();
+                    alike.any(|known| known.reading.value().is_some_and(|it| composed(it) == text))
+                });
+                let text = glob.literal().map(fold);
+                let reach = match in_use {
+                    true => Reach::Name,
+                    false => Reach::Letters(text.as_deref()),
+                };
                 self.add(
                     &mut accepted,
                     (component, part),
-                    Reach::Letters,
+                    reach,
                     |value, _| match literal {
                         true => value.spellings().any(|text| glob.matches(text)),
                         false => glob.matches(&value.id),
@@ -172,17 +207,19 @@ impl Vocabulary {
                     let names = value.names.values().chain([&value.id]);
                     names.into_iter().any(|text| glob.fits(text, &fold(text)))
                 };
-                self.add(
-                    &mut accepted,
-                    (component, part),
-                    Reach::Narrower { aliases: literal },
-                    |value, folded| match literal {
-                        true => folded.iter().any(|text| glob.matches(text)),
-                        false => named(value),
-                    },
-                );
+                let reach = Reach::Narrower(glob.literal().map(|text| Wording {
+                    text,
+                    in_use: stored.is_some_and(|stored| stored.contains_key(text)),
+                }));
+                let fits = |value: &InventoryValue, folded: &[String]| match literal {
+                    true => folded.iter().any(|text| glob.matches(text)),
+                    false => named(value),
+                };
+                self.add(&mut accepted, (component, part), reach, fits);
                 match glob.literal() {
-                    Some(text) => _ = accepted.folded.insert(text.to_owned()),
+                    Some(text) => {
+                        accepted.folded.insert(text.to_owned());
+                    }
                     None => accepted.folded_glob = Some(glob),
                 }
             }
@@ -200,15 +237,33 @@ impl Vocabulary {
         &self,
         accepted: &mut Accepted,
         (component, part): (Component, Option<&str>),
-        reach: Reach,
+        reach: Reach<'_>,
         meant: impl Fn(&InventoryValue, &[String]) -> bool,
     ) {
         let mut beside: BTreeSet<&str> = BTreeSet::new();
         let mut all_meant: BTreeSet<(usize, &str)> = BTreeSet::new();
+        let wording = match reach {
+            Reach::Narrower(wording) => wording,
+            _ => None,
+        };
+        let holds = |known: &Known| {
+            let in_use = wording.filter(|it| it.in_use);
+            in_use.is_some_and(|it| known.folded.iter().any(|own| own[0] == it.text))
+        };
+        // Values that an inventory with the wanted name tells apart from it.
+        let mut apart: BTreeSet<&str> = BTreeSet::new();
+        for known in self.known(component, part).filter(|known| holds(known)) {
+            let others = known.values().filter(|(value, own)| !meant(value, own));
+            apart.extend(others.filter_map(|(_, own)| own.first().map(String::as_str)));
+        }
         for (number, known) in self.known(component, part).enumerate() {
+            // If a table has both names, an alias of the program does not make them one.
+            let is_other = |own: &[String]| {
+                known.is_builtin && !holds(known) && apart.contains(own[0].as_str())
+            };
             let own = known
                 .values()
-                .filter(|(value, folded)| meant(value, folded))
+                .filter(|(value, own)| meant(value, own) && !is_other(own))
                 .map(|(value, _)| value.id.as_str());
             let meant: BTreeSet<&str> = own.collect();
             if meant.is_empty() {
@@ -218,17 +273,22 @@ impl Vocabulary {
             let is_meant = |value: &InventoryValue| meant.contains(value.id.as_str());
             for (value, folded) in known.values() {
                 match reach {
-                    Reach::Letters if is_meant(value) => {
+                    Reach::Letters(text) if is_meant(value) => {
                         accepted.exact.extend(value.spellings().map(str::to_owned));
+                        accepted.add_aliases(value, folded, text);
                     }
-                    Reach::Letters => beside.extend(value.spellings()),
-                    Reach::Own | Reach::Narrower { aliases: true } if is_meant(value) => {
+                    Reach::Letters(_) => beside.extend(value.spellings()),
+                    Reach::Own if is_meant(value) => {
                         accepted.folded.extend(folded.iter().cloned());
                     }
-                    Reach::Narrower { aliases: false } if is_meant(value) => {
+                    Reach::Narrower(Some(wording)) if is_meant(value) => {
+                        accepted.folded.extend(folded.iter().cloned());
+                        accepted.add_aliases(value, folded, Some(wording.text));
+                    }
+                    Reach::Narrower(None) if is_meant(value) => {
                         accepted.folded.insert(fold(&value.id));
                     }
-                    Reach::Narrower { .. } if known.inventory.chain(&value.id).any(is_meant) => {
+                    Reach::Narrower(_) if known.inventory.chain(&value.id).any(is_meant) => {
                         accepted.narrower.extend(folded.iter().cloned());
                     }
                     _ => {}
@@ -240,8 +300,11 @@ impl Vocabulary {
         accepted
             .exact
             .retain(|text| !beside.contains(text.as_str()));
-        if matches!(reach, Reach::Narrower { .. }) && !all_meant.is_empty() {
-            self.add_places_of_tables(accepted, (component, part), &all_meant);
+        accepted
+            .folded
+            .retain(|text| !apart.contains(text.as_str()));
+        if matches!(reach, Reach::Narrower(_)) && !all_meant.is_empty() {
+            self.add_places_of_tables(accepted, (component, part), &all_meant, &apart);
         }
         let Accepted {
             folded, narrower, ..
@@ -250,12 +313,14 @@ impl Vocabulary {
     }
 
     /// Adds values of inventories without a hierarchy of their own that another inventory places below the wanted ones,
-    /// in everyday spellings: `under chin`, `side of head`, `chin ipsi`.
+    /// in everyday spellings: `under chin`, `side of head`, `chin ipsi`. Values that are `apart` are not equal to the
+    /// wanted ones, but may be below them.
     fn add_places_of_tables(
         &self,
         accepted: &mut Accepted,
         (component, part): (Component, Option<&str>),
         meant: &BTreeSet<(usize, &str)>,
+        apart: &BTreeSet<&str>,
     ) {
         let known: Vec<&Known> = self.known(component, part).collect();
         let ordered = |known: &Known| known.inventory.values.iter().any(|it| it.broader.is_some());
@@ -266,18 +331,18 @@ impl Vocabulary {
                     places.entry(loose(text)).or_insert(value);
                 }
             }
-            let under = |place: &InventoryValue| {
-                let is = |it: &InventoryValue| meant.contains(&(number, it.id.as_str()));
-                is(place) || order.inventory.chain(&place.id).any(is)
-            };
+            let is = |it: &InventoryValue| meant.contains(&(number, it.id.as_str()));
+            let under = |place: &InventoryValue| order.inventory.chain(&place.id).skip(1).any(is);
             for table in known.iter().filter(|it| !ordered(it)) {
                 for (_, folded) in table.values() {
                     for text in folded {
                         let written = loose(text);
-                        let place = places
-                            .get(&written)
-                            .or_else(|| places.get(whole_of(&written)?));
-                        if place.is_some_and(|place| under(place)) {
+                        let whole = || places.get(whole_of(&written)?);
+                        let found = match places.get(&written) {
+                            Some(same) => under(same) || is(same) && !apart.contains(text.as_str()),
+                            None => whole().is_some_and(|whole| is(whole) || under(whole)),
+                        };
+                        if found {
                             accepted.narrower.insert(text.clone());
                         }
                     }
@@ -317,16 +382,24 @@ fn whole_of(place: &str) -> Option<&str> {
 
 /// The spellings that are accepted for the wanted values.
 #[derive(Clone, Copy)]
-enum Reach {
-    /// Spellings of the wanted values only, with case and accents.
-    Letters,
+enum Reach<'a> {
+    /// The name alone.
+    Name,
+    /// Spellings of the wanted values only, with case and accents; with the folded name that is asked for.
+    Letters(Option<&'a str>),
     /// Spellings of the wanted values only, ignoring case and accents.
     Own,
-    /// Narrower values, in the hierarchy of any inventory.
-    Narrower {
-        /// Whether the other spellings of the wanted values are accepted too.
-        aliases: bool,
-    },
+    /// Narrower values, in the hierarchy of any inventory; of a wanted name also the other spellings.
+    Narrower(Option<Wording<'a>>),
+}
+
+/// The name by which a query asks for a value.
+#[derive(Clone, Copy)]
+struct Wording<'a> {
+    /// The name, folded.
+    text: &'a str,
+    /// Whether a value in use has exactly this name.
+    in_use: bool,
 }
 
 fn has(value: &InventoryValue, features: &[Feature], exactly: bool) -> bool {

@@ -362,6 +362,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "{condition} compte aussi des valeurs plus précises : {values} ; == ne compte que la valeur",
     ),
     (
+        "{condition} counts values that are equal to it by an alias, too: {values}; {field}== with one of these names counts it alone",
+        "{condition} compte aussi des valeurs égales par un alias : {values} ; {field}== avec un de ces noms ne compte que lui",
+    ),
+    (
         "{condition} matched: {values}",
         "{condition} a trouvé : {values}",
     ),

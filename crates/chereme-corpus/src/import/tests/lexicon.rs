@@ -92,6 +92,54 @@ fn spellings_that_differ_only_in_case_are_kept() {
 }
 
 #[test]
+fn a_value_of_a_table_is_not_equal_to_others_by_aliases_of_the_program() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let table = desk.file(
+        "lex.tsv",
+        "gloss\tHandshape\tLocation\nA\tP\tupper lip\nB\tK\tmouth\nC\tK\tmouth\nD\tK\tcheek\n\
+         E\tK\tcheekbone\nF\tof-table\tof the table\n",
+    );
+    import(&mut corpus, &table, "{}");
+    for (query, wanted, found) in [
+        ("placement=\"upper lip\"", 1, ""),
+        ("placement=mouth", 2, ""),
+        ("placement==mouth", 2, ""),
+        ("placement=cheekbone", 1, ""),
+        ("placement=cheek", 1, ""),
+        ("placement!=cheek placement==cheekbone", 1, ""),
+        ("configuration=P", 1, ""),
+        ("configuration=K", 4, ""),
+        ("configuration==K", 4, ""),
+        (
+            "placement=\"lower lip\"",
+            3,
+            "equal to it by an alias, too: mouth (2), upper lip (1); placement== with one",
+        ),
+        (
+            "placement==\"lower lip\"",
+            3,
+            "equal to it by an alias, too: mouth (2), upper lip (1); placement== with one",
+        ),
+        (
+            "placement=bouche",
+            3,
+            "equal to it by an alias, too: upper lip (1)",
+        ),
+    ] {
+        let answer = corpus.search(query, &SearchOptions::default());
+        let answer = answer.expect(query);
+        assert_eq!(answer.total, wanted, "{query}: {:?}", answer.findings);
+        let messages: Vec<String> = answer.findings.iter().map(|it| it.message()).collect();
+        let says = match found {
+            "" => messages.is_empty(),
+            found => messages[0].contains(found),
+        };
+        assert!(says, "{query}: {messages:?}");
+    }
+}
+
+#[test]
 fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");

@@ -399,6 +399,10 @@ fn shown(finding: &Finding) -> String {
     let names: Vec<String> = match &finding.kind {
         FindingKind::Widened { values } | FindingKind::Matched { values } => values.clone(),
         FindingKind::CannotMatch { names, .. } => names.clone(),
+        FindingKind::Equal { values, .. } => {
+            let counted = |(value, count): &(String, usize)| format!("{value} ({count})");
+            values.iter().map(counted).collect()
+        }
         FindingKind::NotCoded { .. } => Vec::new(),
         FindingKind::NoneTogether { terms } => terms
             .iter()
