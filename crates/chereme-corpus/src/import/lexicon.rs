@@ -4,9 +4,10 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
+use chereme_formats::Finding;
 use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
 use chereme_formats::table::TableError;
-use chereme_sign::query::number;
+use chereme_sign::query::Numerals;
 use chereme_sign::{Component, Inventory, InventoryValue, Reading};
 use serde_json::{Map, Value, json};
 
@@ -60,12 +61,14 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         Some(id) if remapped => id,
         _ => job.keep(None, Some(&bytes))?,
     };
+    let numerals = numerals(&table);
+    report.findings.extend(unsure_numbers(&table, &numerals));
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
     let mut signs = Signs::default();
     for (done, entry) in table.entries.iter().enumerate() {
-        let token = import_entry(job, &table, entry, &inventories, &mut signs)?;
+        let token = import_entry(job, &table, entry, (&inventories, &numerals), &mut signs)?;
         if let Some(text) = &entry.notation {
             let notation = Text {
                 token,
@@ -87,6 +90,45 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         }
     }
     Ok(report)
+}
+
+/// Returns the spelling of the numbers in each column of attributes.
+fn numerals(table: &Lexicon) -> BTreeMap<&str, Numerals> {
+    let mut cells: BTreeMap<&str, Vec<&str>> = BTreeMap::new();
+    for (name, text) in table.entries.iter().flat_map(|entry| &entry.attributes) {
+        cells.entry(name).or_default().push(text);
+    }
+    let spelled = |(name, cells): (_, Vec<&str>)| (name, Numerals::of(cells));
+    cells.into_iter().map(spelled).collect()
+}
+
+/// Returns a finding for each column with numbers such as `1,234` whose comma may as well part thousands.
+fn unsure_numbers(table: &Lexicon, numerals: &BTreeMap<&str, Numerals>) -> Vec<ReportFinding> {
+    let mut unsure: BTreeMap<&str, (u64, &str, f64, usize)> = BTreeMap::new();
+    for entry in &table.entries {
+        for (name, text) in &entry.attributes {
+            let column = numerals
+                .get(name.as_str())
+                .filter(|it| it.is_ambiguous(text));
+            if let Some(number) = column.and_then(|column| column.number(text)) {
+                let first = (entry.line, text.trim(), number, 0);
+                unsure.entry(name).or_insert(first).3 += 1;
+            }
+        }
+    }
+    let finding = |(name, (line, text, number, count)): (&str, (u64, &str, f64, usize))| {
+        ReportFinding::from(
+            Finding::warning(
+                line,
+                format!(
+                    "numbers in the column {name:?} may have a comma before decimals or before thousands; {text:?} was \
+                     read as {number}, and so were {count} in all"
+                ),
+            )
+            .with_remedy("if the comma parts thousands, save the table without it, and import it again"),
+        )
+    };
+    unsure.into_iter().map(finding).collect()
 }
 
 fn wrong(error: &TableError) -> Error {
@@ -248,7 +290,7 @@ fn import_entry(
     job: &mut Job<'_>,
     table: &Lexicon,
     entry: &LexiconEntry,
-    inventories: &BTreeMap<InventoryKey, Known>,
+    (inventories, numerals): (&BTreeMap<InventoryKey, Known>, &BTreeMap<&str, Numerals>),
     signs: &mut Signs,
 ) -> Result<i64> {
     let connection = job.connection;
@@ -284,7 +326,7 @@ fn import_entry(
         .map(|(name, text)| AttributeRow {
             name: name.clone(),
             text: text.clone(),
-            number: number(text),
+            number: (numerals.get(name.as_str())).and_then(|column| column.number(text)),
         })
         .collect();
     attributes::set(connection, token, &own)?;

@@ -20,6 +20,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "enregistrez dans un fichier ce qui en vient, et importez-le",
     ),
     (
+        "numbers in the column {name} may have a comma before decimals or before thousands; {text} was read as {number}, and so were {n} in all",
+        "les nombres de la colonne {name} peuvent avoir une virgule avant les décimales ou avant les milliers ; {text} a été lu {number}, comme {n} en tout",
+    ),
+    (
+        "if the comma parts thousands, save the table without it, and import it again",
+        "si la virgule sépare les milliers, enregistrez la table sans elle, et importez-la de nouveau",
+    ),
+    (
         "rename one of the two files",
         "renommez l’un des deux fichiers",
     ),

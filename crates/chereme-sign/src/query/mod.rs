@@ -59,6 +59,7 @@ mod everyday;
 mod expression;
 mod lex;
 mod narrow;
+mod numerals;
 mod parse;
 mod pattern;
 mod print;
@@ -76,6 +77,7 @@ pub use error::{QueryError, unknown_value};
 pub use everyday::{guessed, meant};
 pub use expression::Expression;
 pub use narrow::{facet_condition, narrow, wants, without};
+pub use numerals::Numerals;
 pub use pattern::Pattern;
 pub use saved::Saved;
 pub use tree::{

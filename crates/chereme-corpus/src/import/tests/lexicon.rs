@@ -140,6 +140,35 @@ fn a_value_of_a_table_is_not_equal_to_others_by_aliases_of_the_program() {
 }
 
 #[test]
+fn numbers_of_a_column_are_read_by_what_its_commas_mean() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let table = desk.file(
+        "lex.tsv",
+        "gloss\tCorpus frequency\tZipf frequency\tShare\nA\t1,234\t1,234\t12 %\nB\t12,500\t2\t3.5%\n\
+         C\t7\t3\t1 234\nD\t1,000,000\t4\t\n",
+    );
+    let report = import(&mut corpus, &table, "{}");
+    for (query, wanted) in [
+        ("attribute(\"Corpus frequency\")<20", 1),
+        ("attribute(\"Corpus frequency\")>1000", 3),
+        ("attribute(\"Zipf frequency\")<2", 1),
+        ("attribute.Share>3", 3),
+        ("attribute.Share>=1234", 1),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let unsure: Vec<_> = (report.findings.iter())
+        .filter(|it| it.message.contains("thousands"))
+        .collect();
+    let [unsure] = &unsure[..] else {
+        panic!("{:?}", report.findings);
+    };
+    assert_eq!(unsure.line, Some(2));
+    assert!(unsure.message.contains("\"Zipf frequency\"") && unsure.message.contains("1.234"));
+}
+
+#[test]
 fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
