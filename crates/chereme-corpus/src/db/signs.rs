@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_sign::Remedy;
+use chereme_sign::text::{composed, decomposed};
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Field, Phase, Reading};
 use rusqlite::{Connection, OptionalExtension, Row, params};
@@ -104,12 +105,24 @@ pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> 
     Ok(connection.last_insert_rowid())
 }
 
-/// Returns the row of the sign with exactly this gloss.
+/// Returns the row of the sign with exactly this gloss, or with a gloss that differs only by the characters in which a
+/// program stores accents.
 pub(crate) fn find_sign(connection: &Connection, gloss: &str) -> Result<Option<i64>> {
-    Ok(connection
-        .prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?
-        .query_row([gloss], |row| row.get(0))
-        .optional()?)
+    let find = |gloss: &str| -> Result<Option<i64>> {
+        let mut statement = connection.prepare_cached("SELECT id FROM sign WHERE gloss = ?1")?;
+        Ok(statement.query_row([gloss], |row| row.get(0)).optional()?)
+    };
+    if let Some(id) = find(gloss)? {
+        return Ok(Some(id));
+    }
+    for other in [composed(gloss), decomposed(gloss)] {
+        if other != gloss
+            && let Some(id) = find(&other)?
+        {
+            return Ok(Some(id));
+        }
+    }
+    Ok(None)
 }
 
 /// Returns all signs by gloss.
@@ -479,15 +492,6 @@ pub(crate) fn tokens_with(connection: &Connection, inventory: i64, value: &str) 
     Ok(count.unsigned_abs())
 }
 
-/// Returns the citation forms of all signs.
-pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
-    let mut statement =
-        connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
-    let rows = statement
-        .query_map([], token_row)?
-        .collect::<rusqlite::Result<_>>()?;
-    Ok(rows)
-}
 /// Returns the entries of lexicons, of all signs.
 pub(crate) fn lexicon_entries(connection: &Connection) -> Result<Vec<TokenRow>> {
     let sql = format!("{TOKEN} WHERE t.origin = ?1 ORDER BY t.id");
@@ -498,3 +502,12 @@ pub(crate) fn lexicon_entries(connection: &Connection) -> Result<Vec<TokenRow>> 
     Ok(rows)
 }
 
+/// Returns the citation forms of all signs.
+pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
+    let mut statement =
+        connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
+    let rows = statement
+        .query_map([], token_row)?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
+}

@@ -8,6 +8,7 @@ use chereme_formats::Finding;
 use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
 use chereme_formats::table::TableError;
 use chereme_sign::query::Numerals;
+use chereme_sign::text::composed;
 use chereme_sign::{Component, Inventory, InventoryValue, Reading};
 use serde_json::{Map, Value, json};
 
@@ -179,7 +180,7 @@ struct KnownSign {
 impl Signs {
     /// Returns the sign with a gloss; inserts it if it is missing.
     fn glossed(&mut self, job: &mut Job<'_>, gloss: &str) -> Result<&mut KnownSign> {
-        match self.0.entry(gloss.to_owned()) {
+        match self.0.entry(composed(gloss).into_owned()) {
             Entry::Occupied(known) => Ok(known.into_mut()),
             Entry::Vacant(new) => Ok(new.insert(KnownSign::load(job, gloss)?)),
         }

@@ -1,7 +1,7 @@
 //! Words and patterns of words, folded: their form in the index, and the comparison with a text.
 
 use chereme_sign::query::{Expression, Pattern, What};
-use chereme_sign::text::{edit_distance, fold};
+use chereme_sign::text::{composed, edit_distance, fold};
 
 /// Returns the words of a text: its sequences of letters and digits, folded.
 pub(crate) fn words(text: &str) -> Vec<String> {
@@ -15,20 +15,34 @@ pub(crate) fn words(text: &str) -> Vec<String> {
 /// A pattern for a folded word or whole text: the pieces between wildcards; or a regular expression, and whether it
 /// distinguishes case and accents.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(crate) struct Glob(Vec<String>, Option<(Expression, bool)>);
+pub(crate) struct Glob {
+    segments: Vec<String>,
+    expression: Option<(Expression, bool)>,
+    /// Whether case and accents count; however a program stores an accent, it is the same.
+    exact: bool,
+}
 
 impl Glob {
     /// Returns the pattern over a whole text.
     pub(crate) fn whole(pattern: &Pattern) -> Self {
         let segments = pattern.segments().iter().map(|text| fold(text));
         let expression = pattern.expression().cloned();
-        Self(segments.collect(), expression.map(|it| (it, false)))
+        Self {
+            segments: segments.collect(),
+            expression: expression.map(|it| (it, false)),
+            exact: false,
+        }
     }
 
     /// Returns the pattern over a whole text that distinguishes case and accents.
     pub(crate) fn exact(pattern: &Pattern) -> Self {
+        let segments = pattern.segments().iter();
         let expression = pattern.expression().cloned();
-        Self(pattern.segments().to_vec(), expression.map(|it| (it, true)))
+        Self {
+            segments: segments.map(|text| composed(text).into_owned()).collect(),
+            expression: expression.map(|it| (it, true)),
+            exact: true,
+        }
     }
 
     /// Returns a pattern for each word of a pattern over words. A wildcard does not extend over the end of a word, and
@@ -57,12 +71,17 @@ impl Glob {
         let first = found.iter().position(asks).unwrap_or(found.len());
         let last = found.iter().rposition(asks).map_or(first, |last| last + 1);
         let words = found[first..last].iter().cloned();
-        words.map(|word| Self(word, None)).collect()
+        let glob = |segments| Self {
+            segments,
+            expression: None,
+            exact: false,
+        };
+        words.map(glob).collect()
     }
 
     /// Returns the text, if there is no wildcard.
     pub(crate) fn literal(&self) -> Option<&str> {
-        match &self.0[..] {
+        match &self.segments[..] {
             [text] => Some(text),
             _ => None,
         }
@@ -70,17 +89,21 @@ impl Glob {
 
     /// Returns the prefix of all texts that match.
     pub(crate) fn prefix(&self) -> &str {
-        self.0.first().map_or("", String::as_str)
+        self.segments.first().map_or("", String::as_str)
     }
 
     /// Returns whether a whole text matches, folded if the pattern is.
     pub(crate) fn matches(&self, text: &str) -> bool {
-        match &self.1 {
+        match &self.expression {
             Some((expression, true)) => return expression.finds_exactly(text),
             Some((expression, false)) => return expression.finds(text),
             None => {}
         }
-        let Some((last, others)) = self.0.split_last() else {
+        let text = match self.exact {
+            true => &*composed(text),
+            false => text,
+        };
+        let Some((last, others)) = self.segments.split_last() else {
             return false;
         };
         let Some((first, middle)) = others.split_first() else {
@@ -100,12 +123,12 @@ impl Glob {
 
     /// Returns whether a text or its folded form matches: a regular expression may contain accents.
     pub(crate) fn fits(&self, text: &str, folded: &str) -> bool {
-        self.matches(folded) || self.1.is_some() && self.matches(text)
+        self.matches(folded) || self.expression.is_some() && self.matches(text)
     }
 
     /// Returns the pattern as a regular expression over one word.
     pub(crate) fn regex(&self) -> String {
-        self.0.join(".*")
+        self.segments.join(".*")
     }
 }
 

@@ -1,6 +1,6 @@
 //! Regular expressions in a query: `gloss=/^BO.*/`.
 
-use crate::text::fold;
+use crate::text::{composed, fold};
 use regex::{Regex, RegexBuilder};
 use std::cmp::Ordering;
 use std::hash::{Hash, Hasher};
@@ -32,7 +32,7 @@ impl Expression {
             return Err(format!("it is longer than {MAX_CHARS} characters"));
         }
         let build = |loose: bool| {
-            RegexBuilder::new(source)
+            RegexBuilder::new(&composed(source))
                 .case_insensitive(loose)
                 .size_limit(MAX_SIZE)
                 .dfa_size_limit(MAX_SIZE)
@@ -63,13 +63,13 @@ impl Expression {
     /// Returns whether the expression matches in a text, or in the text without accents, both without regard to case.
     #[must_use]
     pub fn finds(&self, text: &str) -> bool {
-        self.loose.is_match(text) || self.loose.is_match(&fold(text))
+        self.loose.is_match(&composed(text)) || self.loose.is_match(&fold(text))
     }
 
     /// Returns whether the expression matches in a text, with regard to case and accents.
     #[must_use]
     pub fn finds_exactly(&self, text: &str) -> bool {
-        self.exact.is_match(text)
+        self.exact.is_match(&composed(text))
     }
 }
 
@@ -108,6 +108,9 @@ mod tests {
         for (source, text, loosely, exactly) in [
             ("^BO", "BOL", true, true),
             ("^bo", "BOL", true, false),
+            // With the accents as characters of their own, on either side.
+            ("ÉTÉ", "E\u{301}TE\u{301}", true, true),
+            ("E\u{301}TE\u{301}$", "L'ÉTÉ", true, true),
             ("^BO", "ABOL", false, false),
             ("BO.*", "ABOL", true, true),
             ("-[0-9]$", "BOL-2", true, true),

@@ -169,6 +169,36 @@ fn numbers_of_a_column_are_read_by_what_its_commas_mean() {
 }
 
 #[test]
+fn glosses_that_differ_only_in_the_storage_of_accents_are_one_sign() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let one = desk.file("one.eaf", &eaf(&[("Gloss", 0, 500, "ÉTÉ")]));
+    let two = desk.file("two.eaf", &eaf(&[("Gloss", 0, 500, "E\u{301}TE\u{301}")]));
+    let table = desk.file(
+        "lex.tsv",
+        "gloss\tHandshape\nE\u{301}TE\u{301}\tB\nÉTÉ\tS\n",
+    );
+    for file in [one, two, table] {
+        import(&mut corpus, &file, "{}");
+    }
+    assert_whole(&mut corpus);
+    for query in [
+        "gloss=ÉTÉ",
+        "gloss=/ÉTÉ/",
+        "gloss==ÉTÉ",
+        "gloss==E\u{301}TE\u{301}",
+    ] {
+        assert_eq!(total(&mut corpus, query), 4, "{query}");
+    }
+    let mut hear = crate::unheard;
+    let progress = &mut crate::Progress::new(&mut hear);
+    let tally = corpus.tally("", &["gloss".to_owned()], progress);
+    assert_eq!(tally.expect("counted").rows.len(), 1);
+    let citations = total(&mut corpus, "origin=lexicon");
+    assert_eq!(citations, 2);
+}
+
+#[test]
 fn attributes_are_kept_listed_and_found_and_can_be_undone() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
