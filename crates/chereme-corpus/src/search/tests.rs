@@ -156,6 +156,39 @@ fn value_row(text: &str) -> TokenValueRow {
 }
 
 #[test]
+fn counts_without_a_value_are_those_of_the_conditions_and_a_value_so_spelled_is_quoted() {
+    use crate::search::TallyRow;
+    use crate::{Progress, unheard};
+
+    let mut sample = Sample::new();
+    for (gloss, coding) in [
+        ("ONE", &["dominant.configuration=B", "placement=n/a"][..]),
+        ("TWO", &["placement=unset", "placement=unclear"]),
+        ("THREE", &["placement=unclear"]),
+        ("FOUR", &["dominant.configuration=B"]),
+    ] {
+        sample.token(gloss, None, coding);
+    }
+    let word = TokenValueRow::of(
+        &"placement".parse().expect("a field"),
+        &Reading::Value("unset".to_owned()),
+    );
+    let five = sample.token("FIVE", None, &[]);
+    sample.work(|connection| signs::set_values(connection, five, &[word]));
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let fields = ["placement".to_owned()];
+    let tally = sample.corpus.tally("", &fields, progress).expect("counted");
+    let row = |row: &TallyRow| format!("{} {}", row.value, row.total);
+    let rows: Vec<String> = tally.rows.iter().map(row).collect();
+    assert_eq!(rows, ["\"unset\" 1", "n/a 1", "unclear 2", "unset 2"]);
+    for row in &tally.rows {
+        let found = sample.search(&format!("placement={}", row.value));
+        assert_eq!(found.total, row.total, "{}", row.value);
+    }
+}
+
+#[test]
 fn a_search_stops_on_request() {
     use crate::{Error, Progress, Step, unheard};
     use std::ops::ControlFlow;
