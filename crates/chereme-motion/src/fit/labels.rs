@@ -12,7 +12,17 @@ pub struct Attachment {
     pub towards: Option<(Part, f64)>,
     /// The joint that it is next to, if any; used to measure limbs.
     pub near: Option<Part>,
+    /// Its distance from the bone towards the side of the thumb, in metres; negative towards the little finger. Only
+    /// labels that name their side have one.
+    pub thumbwards: f64,
+    /// Its distance from the bone out of the back of the hand, in metres.
+    pub raised: f64,
 }
+
+/// The distance of the two markers of a wrist from its middle, in metres: half the breadth of a wrist, and a marker.
+const BESIDE_WRIST: f64 = 0.035;
+/// The distance of a marker on the back of the hand from the bone, in metres.
+const ABOVE_HAND: f64 = 0.015;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Bone {
@@ -26,6 +36,8 @@ enum Bone {
     Elbow,
     Forearm,
     Wrist,
+    WristByThumb,
+    WristByLittleFinger,
     Hand,
     Thigh,
     Knee,
@@ -72,8 +84,8 @@ const SIDED: [(&str, Bone); 40] = [
     ("FRM", Bone::Forearm),
     ("FRA", Bone::Forearm),
     ("FOREARM", Bone::Forearm),
-    ("WRA", Bone::Wrist),
-    ("WRB", Bone::Wrist),
+    ("WRA", Bone::WristByThumb),
+    ("WRB", Bone::WristByLittleFinger),
     ("WRI", Bone::Wrist),
     ("WRIST", Bone::Wrist),
     ("OWR", Bone::Wrist),
@@ -127,6 +139,8 @@ fn of(bone: Bone, side: Side) -> Attachment {
         on: [part, other],
         towards: None,
         near: None,
+        thumbwards: 0.0,
+        raised: 0.0,
     };
     let (upper, fore, hand) = (Part::UpperArm(side), Part::Forearm(side), Part::Hand(side));
     let (thigh, shin, foot) = (Part::Thigh(side), Part::Shin(side), Part::Foot(side));
@@ -137,6 +151,10 @@ fn of(bone: Bone, side: Side) -> Attachment {
     let near = |part: Part, attachment: Attachment| Attachment {
         near: Some(part),
         ..attachment
+    };
+    let wrist = |thumbwards: f64| Attachment {
+        thumbwards,
+        ..near(hand, along(fore, hand, 1.0))
     };
     match bone {
         Bone::Head | Bone::Top => on(Part::Head, Part::Neck),
@@ -156,8 +174,13 @@ fn of(bone: Bone, side: Side) -> Attachment {
         Bone::UpperArm => along(upper, fore, 0.5),
         Bone::Elbow => near(fore, along(upper, fore, 1.0)),
         Bone::Forearm => along(fore, hand, 0.5),
-        Bone::Wrist => near(hand, along(fore, hand, 1.0)),
-        Bone::Hand => along(hand, Part::Finger(side, Finger::Middle, 1), 1.0),
+        Bone::Wrist => wrist(0.0),
+        Bone::WristByThumb => wrist(BESIDE_WRIST),
+        Bone::WristByLittleFinger => wrist(-BESIDE_WRIST),
+        Bone::Hand => Attachment {
+            raised: ABOVE_HAND,
+            ..along(hand, Part::Finger(side, Finger::Middle, 1), 1.0)
+        },
         Bone::Thigh => along(thigh, shin, 0.5),
         Bone::Knee => near(shin, along(thigh, shin, 1.0)),
         Bone::Shin => along(shin, foot, 0.5),

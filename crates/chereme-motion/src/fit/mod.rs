@@ -2,10 +2,13 @@
 //!
 //! Each marker with a known label belongs to a bone (module `labels`). The skeleton is scaled to the distances of the
 //! markers, then turned frame by frame by damped least squares. The place of each marker on its bone is inferred from
-//! the frames themselves, as skin and clothing make it differ from any table. The error of every marker is part of the
-//! result, so that nobody takes a fit for a capture without checking.
+//! the frames themselves, as skin and clothing make it differ from any table. One thing is not inferred: the two markers
+//! of a wrist lie on the sides of thumb and little finger (module `roll`), without which any turn of a forearm about
+//! itself would do. The error of every marker is part of the result, so that nobody takes a fit for a capture without
+//! checking.
 
 mod labels;
+mod roll;
 mod solve;
 #[cfg(test)]
 mod tests;
@@ -24,6 +27,7 @@ use crate::time::{Rate, RateError};
 use crate::times::Times;
 
 pub use labels::{Attachment, attachment};
+use roll::Wrist;
 use solve::{Solver, Target};
 
 /// A skeleton that moves with the markers.
@@ -39,6 +43,8 @@ pub struct Fitted {
     pub unused: Vec<String>,
     /// The number of frames with too few markers, in which the posture before is held.
     pub held: usize,
+    /// The sides whose two wrist markers are not both there: the turn of forearm and palm about the forearm is a guess.
+    pub unturned: Vec<Side>,
 }
 
 /// The distance of a marker from its place on the skeleton.
@@ -174,8 +180,13 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
     if whole.is_empty() {
         return Err(FitError::Gaps(FEWEST_SEEN));
     }
+    let wrists = Side::BOTH.map(|side| Wrist::of(side, &used, &labels, &shown, &rest, anatomy));
+    let unturned = Side::BOTH.into_iter().zip(&wrists);
+    let unturned = unturned.filter_map(|(side, wrist)| wrist.is_none().then_some(side));
+    let unturned: Vec<Side> = unturned.collect();
+    let wrists: Vec<Wrist> = wrists.into_iter().flatten().collect();
     let mut solver = Solver::new(&skeleton, used.iter().map(|it| it.joint));
-    calibrate(&mut solver, &mut used, &shown, &whole, &skeleton);
+    calibrate(&mut solver, &mut used, &wrists, &shown, &whole, &skeleton);
     let moved = all_frames(&mut solver, &used, &shown, &skeleton);
     let rate = rate(markers)?;
     finish(
@@ -183,7 +194,7 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
         skeleton,
         scale,
         rate,
-        (used, unused),
+        (used, unused, unturned),
         &shown,
         moved,
     )
@@ -193,6 +204,7 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
 fn calibrate(
     solver: &mut Solver,
     used: &mut [Used],
+    wrists: &[Wrist],
     shown: &[Vec<Option<DVec3>>],
     whole: &[usize],
     skeleton: &Skeleton,
@@ -235,6 +247,9 @@ fn calibrate(
                 [0, 1, 2].map(|axis| middle(places.iter().map(|at| at[axis]).collect())),
             );
             it.place = it.expected + (median - it.expected).clamp_length_max(FARTHEST);
+        }
+        for wrist in wrists {
+            wrist.turn(used);
         }
     }
 }
@@ -329,6 +344,8 @@ fn anchored(
             from.lerp(end, share)
         }
     };
+    let beside = roll::beside(label, rest, anatomy).unwrap_or_default();
+    let at = at + beside;
     Some((joint, rest.rotation(joint).inverse() * (at - from)))
 }
 
@@ -401,7 +418,7 @@ fn finish(
     skeleton: Skeleton,
     scale: f64,
     rate: Rate,
-    (used, unused): (Vec<Used>, Vec<String>),
+    (used, unused, unturned): (Vec<Used>, Vec<String>, Vec<Side>),
     shown: &[Vec<Option<DVec3>>],
     moved: Moved,
 ) -> Result<Fitted, FitError> {
@@ -448,6 +465,7 @@ fn finish(
         markers: fitted,
         unused,
         held: moved.held,
+        unturned,
     })
 }
 

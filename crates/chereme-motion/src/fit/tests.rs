@@ -40,8 +40,9 @@ const SET: [(&str, [f64; 3]); 30] = [
     ("RANK", [-0.04, 0.0, 0.0]),
 ];
 
-/// Returns the markers and joint positions of a body of another size that makes a step and raises an arm.
-fn capture(size: f64, frames: usize) -> (Markers, Vec<ModelPose>, Anatomy) {
+/// Returns the markers and joint positions of a body of another size that makes a step and raises an arm, whose left
+/// forearm is turned about itself by some `rolled` radians.
+fn capture(size: f64, frames: usize, rolled: f64) -> (Markers, Vec<ModelPose>, Anatomy) {
     let skeleton = scaled(&body(PLAIN), size).expect("a body");
     let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
     let rest = skeleton.rest_model_pose();
@@ -56,7 +57,8 @@ fn capture(size: f64, frames: usize) -> (Markers, Vec<ModelPose>, Anatomy) {
             pose.rotations[joint(Part::UpperArm(Side::Left))] = turn(-1.2 + 0.5 * t);
             pose.rotations[joint(Part::UpperArm(Side::Right))] = turn(1.2);
             pose.rotations[joint(Part::Forearm(Side::Left))] =
-                DQuat::from_rotation_y(-0.6 - 0.5 * (2.0 * t).sin());
+                DQuat::from_rotation_y(-0.6 - 0.5 * (2.0 * t).sin())
+                    * DQuat::from_rotation_x(rolled + 0.3 * (4.0 * t).sin());
             pose.rotations[joint(Part::Head)] = DQuat::from_rotation_y(0.3 * (3.0 * t).sin());
             ModelPose::of(&skeleton, &pose)
         })
@@ -78,7 +80,7 @@ fn capture(size: f64, frames: usize) -> (Markers, Vec<ModelPose>, Anatomy) {
 
 #[test]
 fn a_skeleton_of_another_size_and_rest_posture_follows_markers() {
-    let (markers, truth, anatomy) = capture(1.08, 40);
+    let (markers, truth, anatomy) = capture(1.08, 40, 0.0);
     let other = body(Wear {
         lowered: 0.5,
         ..PLAIN
@@ -103,9 +105,81 @@ fn a_skeleton_of_another_size_and_rest_posture_follows_markers() {
     }
 }
 
+/// Returns the median angle of a side's palms to the true ones, in degrees.
+fn palms_off(fitted: &Fitted, own: &Anatomy, truth: &[ModelPose], anatomy: &Anatomy) -> [f64; 2] {
+    Side::BOTH.map(|side| {
+        let off = truth.iter().enumerate().map(|(frame, truth)| {
+            let palm = own.palm_normal(side, &fitted.clip.model_pose(frame));
+            let truth = anatomy.palm_normal(side, truth).expect("a palm");
+            palm.expect("a palm").angle_between(truth).to_degrees()
+        });
+        middle(off.collect())
+    })
+}
+
+#[test]
+fn palms_follow_the_sides_of_the_wrist_markers() {
+    let other = body(Wear {
+        lowered: 0.5,
+        ..PLAIN
+    });
+    let own = Anatomy::with_roles(&other, &roles(&other)).expect("a body");
+    for rolled in [-1.5, -0.8, 0.0, 0.8, 1.5] {
+        let (markers, truth, anatomy) = capture(1.0, 30, rolled);
+        let fitted = fit(&markers, &other, &own).expect("a fit");
+        let off = palms_off(&fitted, &own, &truth, &anatomy);
+        assert!(off.iter().all(|it| *it < 10.0), "rolled {rolled}: {off:?}");
+        assert_eq!(fitted.unturned, []);
+
+        let exchanged = markers.points().iter().map(|point| Marker {
+            name: match point.name.as_str() {
+                "Anna:LWRA" => "Anna:LWRB".to_owned(),
+                "Anna:LWRB" => "Anna:LWRA".to_owned(),
+                name => name.to_owned(),
+            },
+            ..point.clone()
+        });
+        let exchanged = Markers::new(
+            markers.times().clone(),
+            *markers.space(),
+            exchanged.collect(),
+        );
+        let turned = fit(&exchanged.expect("a track"), &other, &own).expect("a fit");
+        let off = palms_off(&turned, &own, &truth, &anatomy);
+        let [right, left] = off;
+        assert!(left > 150.0 && right < 10.0, "rolled {rolled}: {off:?}");
+    }
+}
+
+#[test]
+fn a_forearm_without_both_wrist_markers_is_reported() {
+    let (markers, ..) = capture(1.0, 4, 0.0);
+    let skeleton = body(PLAIN);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    let cases: [(&[&str], &[Side]); 3] = [
+        (&["Anna:LWRA"], &[Side::Left]),
+        (&["Anna:RWRB"], &[Side::Right]),
+        (
+            &["Anna:LWRA", "Anna:LWRB", "Anna:RWRA"],
+            &[Side::Right, Side::Left],
+        ),
+    ];
+    for (missing, unturned) in cases {
+        let points = markers.points().iter();
+        let points = points.filter(|it| !missing.contains(&it.name.as_str()));
+        let fewer = Markers::new(
+            markers.times().clone(),
+            *markers.space(),
+            points.cloned().collect(),
+        );
+        let fitted = fit(&fewer.expect("a track"), &skeleton, &anatomy).expect("a fit");
+        assert_eq!(fitted.unturned, unturned, "{missing:?}");
+    }
+}
+
 #[test]
 fn unknown_labels_gaps_and_films_are_reported() {
-    let (markers, ..) = capture(1.0, 4);
+    let (markers, ..) = capture(1.0, 4, 0.0);
     let skeleton = body(PLAIN);
     let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
     let renamed: Vec<Marker> = markers
@@ -138,6 +212,6 @@ fn unknown_labels_gaps_and_films_are_reported() {
     let gaps = Markers::new(markers.times().clone(), *markers.space(), gaps);
     let gaps = fit(&gaps.expect("a track"), &skeleton, &anatomy);
     assert!(matches!(gaps, Err(FitError::Gaps(_))), "{gaps:?}");
-    assert_eq!(attachment("TakeoMonday:LWRA"), attachment("l.wrist"));
+    assert_eq!(attachment("TakeoMonday:LWRA"), attachment("l.wra"));
     assert_eq!(attachment("CentreOfMass"), None);
 }
