@@ -278,6 +278,14 @@ pub(super) const READING: &[(&str, &str)] = &[
         "il commence à l’image {n} de sa capture ; c’est 0 s ici",
     ),
     (
+        "{n} places of {markers} markers are exactly 0 0 0 and become gaps, as some programs write gaps so: {names}",
+        "positions de {markers} marqueurs exactement à 0 0 0, qui deviennent des trous, comme certains programmes les écrivent : {n} ; {names}",
+    ),
+    (
+        "write gaps as empty cells, and a marker that is really there as 0.001",
+        "écrivez les trous comme des cellules vides, et un marqueur qui est vraiment là comme 0.001",
+    ),
+    (
         "{n} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so",
         "positions exactement à 0 0 0 que le fichier dit vues : {n} ; certains programmes écrivent ainsi les trous",
     ),

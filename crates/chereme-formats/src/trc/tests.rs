@@ -50,6 +50,72 @@ fn dialects_read_to_equal_data() {
 }
 
 #[test]
+fn places_at_nought_are_gaps_of_markers_that_are_elsewhere_else() {
+    // Places of LSHO and of RSHO, the gaps that they become, and the warnings.
+    let cases: [([&str; 3], [&str; 3], [usize; 2], &[&str]); 6] = [
+        (
+            ["70 1620 70", "0.0000 0.0000 0.0000", "70 1621 70"],
+            ["-70 1620 70", "-70 1620 71", "-70 1620 72"],
+            [1, 0],
+            &["1 places of 1 markers are exactly 0 0 0 and become gaps"],
+        ),
+        (
+            ["0 0 0", "0 -0 0", "70 1621 70"],
+            ["-70 1620 70", "-70 1620 71", "0 0 0"],
+            [2, 1],
+            &["3 places of 2 markers are exactly 0 0 0 and become gaps"],
+        ),
+        (
+            ["0 0 0", "0 0 0", "0 0 0"],
+            ["-70 1620 70", "-70 1620 71", "-70 1620 71"],
+            [3, 0],
+            &["3 places of 1 markers are exactly 0 0 0 and become gaps"],
+        ),
+        (
+            ["70 1620 70", "0 0 5", "70 1621 70"],
+            ["-70 0 0", "-70 1620 71", "0 1620 0"],
+            [0, 0],
+            &[],
+        ),
+        (
+            ["0 0 0", "1 0 0", "200 0 0"],
+            ["-70 1620 70", "-70 1620 71", "-70 1620 72"],
+            [0, 0],
+            &["1 places are exactly 0 0 0 though the file calls them seen"],
+        ),
+        (
+            ["0 0 0", "0 0 0", "0 0 0"],
+            ["0 0 0", "0 0 0", "0 0 0"],
+            [0, 0],
+            &["6 places are exactly 0 0 0 though the file calls them seen"],
+        ),
+    ];
+    for (left, right, gaps, warnings) in cases {
+        let mut text = PLAIN
+            .split("1\t0.000000")
+            .next()
+            .unwrap_or(PLAIN)
+            .to_owned();
+        for (frame, (a, b)) in left.iter().zip(right).enumerate() {
+            let cells = format!("{a} {b}").replace(' ', "\t");
+            text += &format!("{}\t{}\t{cells}\n", frame + 1, frame as f64 / 100.0);
+        }
+        let (markers, findings) = markers(&text);
+        let found = [0, 1].map(|point| {
+            let point = &markers.points()[point];
+            (0..3).filter(|frame| point.at(*frame).is_none()).count()
+        });
+        assert_eq!(found, gaps, "{left:?} {right:?}");
+        let noughts = findings.iter().filter(|it| it.message.contains("0 0 0"));
+        let noughts: Vec<&str> = noughts.map(|it| it.message.as_str()).collect();
+        assert_eq!(noughts.len(), warnings.len(), "{noughts:?}");
+        for (found, expected) in noughts.iter().zip(warnings) {
+            assert!(found.starts_with(expected), "{found}");
+        }
+    }
+}
+
+#[test]
 fn wrong_counts_and_uneven_times_are_reported() {
     let (_, findings) = markers(&PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm"));
     assert_eq!(
