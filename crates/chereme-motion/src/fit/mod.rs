@@ -8,6 +8,7 @@
 //! checking.
 
 mod labels;
+mod people;
 mod roll;
 mod solve;
 #[cfg(test)]
@@ -37,6 +38,9 @@ pub struct Fitted {
     pub clip: Clip,
     /// The size of the skeleton relative to the given one.
     pub scale: f64,
+    /// The stature of the markers' body in metres, as the distances between its joints' markers show it. It is not that
+    /// of the skeleton if no skeleton is so small or large.
+    pub stature: f64,
     /// The markers that were used, in the order of the track.
     pub markers: Vec<FittedMarker>,
     /// The labels of markers that belong to no known bone.
@@ -90,6 +94,9 @@ pub enum FitError {
         /// The needed number.
         needed: usize,
     },
+    /// The markers are those of several people.
+    #[error("the markers are those of several people: {}", .0.join(", "))]
+    People(Vec<String>),
     /// No frame has enough markers.
     #[error("no frame has {0} markers with a known label at once")]
     Gaps(usize),
@@ -110,6 +117,8 @@ pub enum FitError {
 /// The least number of markers with a known label, in all and in a frame.
 const FEWEST: usize = 8;
 const FEWEST_SEEN: usize = 6;
+/// The least and the largest size of a fitted skeleton relative to the given one.
+const SCALES: [f64; 2] = [0.3, 3.0];
 /// The number of frames that are used to find the places of markers on their bones, and the number of rounds.
 const SAMPLES: usize = 40;
 const ROUNDS: usize = 4;
@@ -130,22 +139,22 @@ struct Used {
 /// Fits a skeleton in metres and model space to markers.
 ///
 /// # Errors
-/// [`FitError`] if the points are not in metric space, too few labels are known, no frame has enough markers, or the
-/// skeleton is not that of a body.
+/// [`FitError`] if the points are not in metric space, belong to several people, too few labels are known, no frame has
+/// enough markers, or the skeleton is not that of a body.
 pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<Fitted, FitError> {
     if !matches!(markers.space(), Space::World(_)) {
         return Err(FitError::Flat);
     }
-    if anatomy.measures().is_none() || anatomy.joint(Part::Head).is_none() {
+    let Some(measures) = anatomy
+        .measures()
+        .filter(|_| anatomy.joint(Part::Head).is_some())
+    else {
         return Err(FitError::NoBody);
-    }
-    let shown: Vec<Vec<Option<DVec3>>> = (0..markers.frames()).map(|f| markers.shown(f)).collect();
-    let labels: Vec<Option<Attachment>> = markers
-        .points()
-        .iter()
-        .map(|point| attachment(&point.name))
-        .collect();
-    let scale = scale(&shown, &labels, skeleton, anatomy);
+    };
+    let shown: Vec<Vec<Option<DVec3>>> = (0..markers.frames()).map(|f| shown(markers, f)).collect();
+    let labels = people::labels(markers)?;
+    let measured = scale(&shown, &labels, skeleton, anatomy);
+    let scale = measured.clamp(SCALES[0], SCALES[1]);
     let skeleton = scaled(skeleton, scale)?;
     let rest = skeleton.rest_model_pose();
     let mut used: Vec<Used> = Vec::new();
@@ -192,12 +201,19 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
     finish(
         markers,
         skeleton,
-        scale,
+        (scale, measured * measures.stature),
         rate,
         (used, unused, unturned),
         &shown,
         moved,
     )
+}
+
+/// Returns the places of a frame; a place at exactly 0 0 0 in the file is a gap that a program wrote so.
+fn shown(markers: &Markers, frame: usize) -> Vec<Option<DVec3>> {
+    let points = markers.points().iter().zip(markers.shown(frame));
+    let seen = points.map(|(point, at)| at.filter(|_| point.at(frame) != Some(DVec3::ZERO)));
+    seen.collect()
 }
 
 /// Finds the places of markers on their bones from frames over the whole take.
@@ -392,7 +408,7 @@ fn scale(
     if ratios.is_empty() {
         return 1.0;
     }
-    middle(ratios).clamp(0.3, 3.0)
+    middle(ratios)
 }
 
 fn scaled(skeleton: &Skeleton, scale: f64) -> Result<Skeleton, SkeletonError> {
@@ -416,7 +432,7 @@ fn rate(markers: &Markers) -> Result<Rate, RateError> {
 fn finish(
     markers: &Markers,
     skeleton: Skeleton,
-    scale: f64,
+    (scale, stature): (f64, f64),
     rate: Rate,
     (used, unused, unturned): (Vec<Used>, Vec<String>, Vec<Side>),
     shown: &[Vec<Option<DVec3>>],
@@ -462,6 +478,7 @@ fn finish(
     Ok(Fitted {
         clip: Clip::new(skeleton.clone(), rate, channels.collect())?,
         scale,
+        stature,
         markers: fitted,
         unused,
         held: moved.held,

@@ -178,6 +178,110 @@ fn a_forearm_without_both_wrist_markers_is_reported() {
 }
 
 #[test]
+fn the_markers_of_two_people_are_refused_and_a_few_of_another_are_not_used() {
+    let (markers, ..) = capture(1.0, 4, 0.0);
+    let skeleton = body(PLAIN);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    let named = |subject: &str, group: &str, label: &str| match subject {
+        "" => (group.to_owned(), label.to_owned()),
+        _ => (group.to_owned(), format!("{subject}:{label}")),
+    };
+    // The subject and group of a second person, the number of its markers, and the people or the unused markers.
+    let cases: [(&str, &str, usize, Result<usize, &str>); 5] = [
+        ("Bob", "", 20, Err("Bob")),
+        ("", "Bob", 20, Err("Bob")),
+        ("", "", 20, Err("(no name)")),
+        ("Bob", "", 5, Ok(5)),
+        ("Bob", "", 0, Ok(0)),
+    ];
+    for (subject, group, count, expected) in cases {
+        let second = markers.points().iter().zip(SET).take(count);
+        let second = second.map(|(point, (label, _))| {
+            let (group, name) = named(subject, group, label);
+            Marker {
+                group,
+                name,
+                place: point.place.clone(),
+                quality: None,
+            }
+        });
+        let points = markers.points().iter().cloned().chain(second).collect();
+        let track = Markers::new(markers.times().clone(), *markers.space(), points);
+        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy);
+        match (fitted, expected) {
+            (Ok(fitted), Ok(unused)) => assert_eq!(fitted.unused.len(), unused),
+            (Err(FitError::People(names)), Err(second)) => assert_eq!(names, ["Anna", second]),
+            (found, expected) => panic!("{expected:?}: {found:?}"),
+        }
+    }
+    // Two parts of one body may have names of their own.
+    let points = markers.points().iter().zip(SET).map(|(point, (label, _))| {
+        let part = if label.starts_with('L') {
+            "Left"
+        } else {
+            "Rest"
+        };
+        Marker {
+            name: format!("{part}:{label}"),
+            ..point.clone()
+        }
+    });
+    let track = Markers::new(markers.times().clone(), *markers.space(), points.collect());
+    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+    assert_eq!(fitted.markers.len(), SET.len());
+}
+
+#[test]
+fn a_wrong_unit_shows_in_the_stature_and_places_at_nought_are_not_seen() {
+    let (markers, ..) = capture(1.0, 4, 0.0);
+    let skeleton = body(PLAIN);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    let own = anatomy.measures().expect("a body").stature;
+    for (unit, scale) in [(1.0, 1.0), (0.001, SCALES[0]), (25.4, SCALES[1])] {
+        let convention = Convention {
+            metres_per_unit: unit,
+            ..Convention::MODEL
+        };
+        let track = Markers::new(
+            markers.times().clone(),
+            Space::World(convention),
+            markers.points().to_vec(),
+        );
+        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+        assert!((fitted.stature / (unit * own) - 1.0).abs() < 0.15);
+        assert!((fitted.scale / scale - 1.0).abs() < 0.15);
+    }
+    let points = markers.points().iter().map(|point| {
+        let column = |column: &Column| {
+            let numbers = (0..4).map(|frame| match frame {
+                1 => 0.0,
+                _ => column.value(frame).unwrap_or(f64::NAN),
+            });
+            Column::doubles(numbers.collect())
+        };
+        let is_left = point.name.contains(":L");
+        Marker {
+            place: match is_left {
+                true => point.place.iter().map(column).collect(),
+                false => point.place.clone(),
+            },
+            ..point.clone()
+        }
+    });
+    let track = Markers::new(markers.times().clone(), *markers.space(), points.collect());
+    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+    for marker in &fitted.markers {
+        let seen = if marker.name.contains(":L") {
+            0.75
+        } else {
+            1.0
+        };
+        assert_eq!(marker.seen, seen, "{}", marker.name);
+    }
+    assert!(fitted.median() < 0.012);
+}
+
+#[test]
 fn unknown_labels_gaps_and_films_are_reported() {
     let (markers, ..) = capture(1.0, 4, 0.0);
     let skeleton = body(PLAIN);
