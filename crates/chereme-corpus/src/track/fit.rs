@@ -2,8 +2,8 @@
 
 use std::sync::Arc;
 
-use chereme_motion::fit::{Fitted, fit};
-use chereme_motion::{Anatomy, Column, Convention, Curve, Curves, Skeleton, Times};
+use chereme_motion::fit::{FitError, Fitted, fit};
+use chereme_motion::{Anatomy, Column, Convention, Curve, Curves, Side, Skeleton, Times};
 use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -20,6 +20,9 @@ use crate::picture::built_in_body;
 const FAR: f64 = 0.02;
 /// The least share of frames in which the markers of a usable result are seen; a smaller one gives a warning.
 const SEEN: f64 = 0.6;
+
+/// The statures of signers in metres, children included; another gives a warning.
+const STATURES: [f64; 2] = [0.7, 2.4];
 
 /// A skeleton that was fitted to markers.
 #[derive(Debug, Clone, Serialize)]
@@ -83,7 +86,10 @@ impl Corpus {
         let fitted = fit(&points, &skeleton, &anatomy).map_err(|error| {
             Error::wrong(error.to_string())
                 .at(&row.name)
-                .advise("markers are known by labels such as LSHO, RWRA, C7 or R.Elbow; rename them in the file")
+                .advise(match error {
+                    FitError::People(_) => "write a file for each person, and import each as a recording of its own",
+                    _ => "markers are known by labels such as LSHO, RWRA, C7 or R.Elbow; rename them in the file",
+                })
         })?;
         let mut report = report(&markers.name, &fitted);
         if dry_run {
@@ -193,6 +199,25 @@ fn report(markers: &str, fitted: &Fitted) -> FitReport {
             fitted.held
         ));
     }
+    if !(STATURES[0]..=STATURES[1]).contains(&fitted.stature) {
+        findings.push(format!(
+            "the body of the markers is {:.3} m tall; if that is wrong, import the file again and say its unit with \
+             --unit, such as --unit m",
+            fitted.stature
+        ));
+    }
+    for side in &fitted.unturned {
+        let letter = if *side == Side::Left { 'L' } else { 'R' };
+        findings.push(format!(
+            "the turn of the {} forearm and palm about the forearm is a guess, as no pair of markers on the sides of \
+             thumb and little finger shows it; call them {letter}WRA and {letter}WRB",
+            side.name()
+        ));
+    }
+    findings.push(
+        "no marker is on the fingers, which stay at rest: handshapes read from this track are not the signer's"
+            .to_owned(),
+    );
     FitReport {
         markers: markers.to_owned(),
         track: None,

@@ -488,3 +488,77 @@ fn a_check_names_the_track_of_any_kind_whose_numbers_are_damaged() {
         );
     }
 }
+
+/// Returns markers on the program's own body at rest, each named `subject:label`.
+fn worn(subjects: &[&str], without: &[&str], metres_per_unit: f64) -> Markers {
+    let labels = [
+        "LFHD", "RFHD", "C7", "LSHO", "RSHO", "LELB", "RELB", "LWRA", "RWRA", "LWRB", "RWRB",
+        "LFIN", "RFIN", "LKNE", "RKNE", "LANK", "RANK",
+    ];
+    let (clip, anatomy) = crate::picture::built_in_body().expect("a body");
+    let model = clip.model_pose(0);
+    let named = subjects.iter().flat_map(|subject| {
+        let labels = labels.iter().filter(|label| !without.contains(label));
+        labels.map(move |label| (subject, label))
+    });
+    let points = named.map(|(subject, label)| {
+        let known = chereme_motion::fit::attachment(label).expect("a known label");
+        let part = known.near.or(known.towards.map(|(part, _)| part));
+        let joint = anatomy.joint(part.unwrap_or(known.on[0])).expect("a joint");
+        let at = model.position(joint) + DVec3::Z * known.thumbwards;
+        let place = at.to_array().map(|value| Column::doubles(vec![value; 3]));
+        Marker::new(format!("{subject}:{label}"), place.to_vec())
+    });
+    let convention = Convention {
+        metres_per_unit,
+        ..Convention::MODEL
+    };
+    let space = Space::World(convention);
+    Markers::new(Times::Even(rate(60)), space, points.collect()).expect("markers")
+}
+
+#[test]
+fn what_a_fit_does_not_show_is_said_in_both_languages() {
+    let cases: [(&[&str], f64, &[&str]); 3] = [
+        (&[], 1.0, &["no marker is on the fingers"]),
+        (
+            &["LWRA"],
+            1.0,
+            &[
+                "the turn of the left forearm",
+                "no marker is on the fingers",
+            ],
+        ),
+        (
+            &[],
+            0.001,
+            &[
+                "the body of the markers is 0.00",
+                "no marker is on the fingers",
+            ],
+        ),
+    ];
+    let (_folder, mut corpus, take) = corpus();
+    let mut fitted = |track: Markers| {
+        let new = [NewTrack::new("markers", Track::Markers(track))];
+        let rows = corpus.add_tracks(&take, &new).expect("stored");
+        corpus.fit_markers(&take, Some(&rows[0].name), None, true)
+    };
+    for (without, unit, expected) in cases {
+        let report = fitted(worn(&["Anna"], without, unit)).expect("a fit");
+        assert_eq!(
+            report.findings.len(),
+            expected.len(),
+            "{:?}",
+            report.findings
+        );
+        for (finding, start) in report.findings.iter().zip(expected) {
+            assert!(finding.starts_with(start), "{finding}");
+            let french = crate::words::message(finding, crate::words::Language::French);
+            assert!(french.is_some_and(|it| it != *finding), "{finding}");
+        }
+    }
+    let error = fitted(worn(&["Anna", "Bob"], &[], 1.0)).expect_err("two people");
+    let text = error.to_string();
+    assert!(text.contains("several people: Anna, Bob"), "{text}");
+}

@@ -507,6 +507,30 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "ce n’est pas la capture d’un squelette : les marqueurs en sont à {mm} mm (médiane) et se voient dans {share} % des images ; un bon ajustement est sous {most} mm et au-dessus de {least} %",
     ),
     (
+        "the body of the markers is {m} m tall; if that is wrong, import the file again and say its unit with --unit, such as --unit m",
+        "le corps des marqueurs mesure {m} m ; si c’est faux, importez de nouveau le fichier et donnez son unité avec --unit, comme --unit m",
+    ),
+    (
+        "the turn of the left forearm and palm about the forearm is a guess, as no pair of markers on the sides of thumb and little finger shows it; call them {a} and {b}",
+        "la rotation de l’avant-bras gauche et de la paume autour de l’avant-bras est supposée, car aucune paire de marqueurs du côté du pouce et de l’auriculaire ne la montre ; nommez-les {a} et {b}",
+    ),
+    (
+        "the turn of the right forearm and palm about the forearm is a guess, as no pair of markers on the sides of thumb and little finger shows it; call them {a} and {b}",
+        "la rotation de l’avant-bras droit et de la paume autour de l’avant-bras est supposée, car aucune paire de marqueurs du côté du pouce et de l’auriculaire ne la montre ; nommez-les {a} et {b}",
+    ),
+    (
+        "no marker is on the fingers, which stay at rest: handshapes read from this track are not the signer's",
+        "aucun marqueur n’est sur les doigts, qui restent au repos : les configurations lues sur cette piste ne sont pas celles du signeur",
+    ),
+    (
+        "the markers are those of several people: {names}",
+        "les marqueurs sont ceux de plusieurs personnes : {names}",
+    ),
+    (
+        "write a file for each person, and import each as a recording of its own",
+        "écrivez un fichier par personne, et importez chacun comme un enregistrement à part",
+    ),
+    (
         "frames with too few markers, in which the posture before is held: {n}",
         "images avec trop peu de marqueurs, où la posture d’avant est tenue : {n}",
     ),
