@@ -24,6 +24,9 @@ const LEAST: f64 = 0.8;
 /// The longest expressions that are measured, in seconds; others are counted.
 const LONGEST: f64 = 1_800.0;
 
+/// Begin of a channel before the first sign and its end after the last one, in seconds; no end if it never comes back.
+type Reach = (f64, Option<f64>);
+
 /// Begin and end of non-manuals, for each function and channel.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Onsets {
@@ -99,7 +102,7 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<Onsets> {
         let connection = self.store.read();
-        let mut found: BTreeMap<(Function, usize), Vec<(f64, Option<f64>)>> = BTreeMap::new();
+        let mut found: BTreeMap<(Function, usize), Vec<Reach>> = BTreeMap::new();
         let mut report = Onsets {
             expressions: 0,
             without_face: 0,

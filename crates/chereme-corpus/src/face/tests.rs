@@ -642,10 +642,8 @@ fn expressions_that_are_too_long_or_not_measured_are_skipped_by_name_and_ends_ar
         (found.expressions, found.with_gaps, found.too_long),
         (5, 1, 0)
     );
-    let rows = found.rows.iter();
-    let row = rows
-        .filter(|row| row.channel == "brow_raise_right")
-        .next_back();
+    let mut rows = found.rows.iter();
+    let row = rows.rfind(|row| row.channel == "brow_raise_right");
     let row = row.expect("brows");
     assert_eq!((row.n, row.ends), (4, 3), "{row:?}");
     assert!(

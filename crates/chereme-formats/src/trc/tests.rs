@@ -51,8 +51,14 @@ fn dialects_read_to_equal_data() {
 
 #[test]
 fn places_at_nought_are_gaps_of_markers_that_are_elsewhere_else() {
-    // Places of LSHO and of RSHO, the gaps that they become, and the warnings.
-    let cases: [([&str; 3], [&str; 3], [usize; 2], &[&str]); 6] = [
+    /// Places of LSHO and of RSHO, the gaps that they become, and the warnings.
+    type Case = (
+        [&'static str; 3],
+        [&'static str; 3],
+        [usize; 2],
+        &'static [&'static str],
+    );
+    let cases: [Case; 6] = [
         (
             ["70 1620 70", "0.0000 0.0000 0.0000", "70 1621 70"],
             ["-70 1620 70", "-70 1620 71", "-70 1620 72"],

@@ -244,6 +244,7 @@ impl Export {
         let typed = self
             .paths
             .show(ui, Id::unique("export path"), line, &mut self.to, out);
+        let entered = typed.response.lost_focus() && ui.input(|it| it.key_pressed(Key::Enter));
         typed.response.labelled_by(label.id);
         if typed.changed {
             self.typed = true;
@@ -251,7 +252,6 @@ impl Export {
         }
         ui.checkbox(&mut self.replace, seen.say(words::REPLACE));
         ui.add_space(4.0);
-        let entered = typed.response.lost_focus() && ui.input(|it| it.key_pressed(Key::Enter));
         self.buttons(ui, seen, settings, (&what, entered), out);
         if let Some(wrong) = &self.wrong {
             let lines = wrong.lines().map(|line| spoken(line, seen.language));
