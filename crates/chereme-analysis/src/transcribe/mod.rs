@@ -21,7 +21,7 @@
 //! | `hands` | symmetry of the two hands |
 //! | `tree` | the sign's tree and its features |
 //! | `precision` | how exactly the hands hold the intended directions and handshapes |
-//! | `resynthesis` | verification of hand placement by re-synthesis |
+//! | `resynthesis` | verification of movements, places and orientations by re-synthesis |
 //! | `tuned` | the tuned numbers, which are data: `schema/notation/reading.json` |
 
 mod acts;
@@ -313,7 +313,7 @@ pub trait Performs {
 /// place, but the right place puts it exactly at the observed position. If the first reading misses it, alternative
 /// readings are synthesised, at most [`MOST_TRIALS`] of movements and places. One that puts the hands within millimetres
 /// of their observed positions is reported; or, since a misread movement displaces them, one that misses them by much less than
-/// the first. Findings report what is not explained. Captured movement is never reproduced that exactly: use
+/// the first. If other orientations bring the hands much nearer to the observed ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
 /// [`transcribe`] for it.
 ///
 /// # Errors

@@ -36,8 +36,8 @@ const MOST_POSTURES: usize = 1000;
 /// The most searches for the places of a sign: a second one follows if the places of the first one explain the movement.
 const SEARCHES: usize = 2;
 
-/// The most postures and movements that are synthesised for one sign.
-pub const MOST_TRIALS: usize = SEARCHES * MOST_POSTURES + movement::MOST_MOVEMENTS;
+/// The most postures and movements that are synthesised for one sign: each search is repeated with other orientations.
+pub const MOST_TRIALS: usize = 2 * SEARCHES * MOST_POSTURES + movement::MOST_MOVEMENTS;
 
 /// Writes the notation of a scene; with `performs`, verifies movements and places by re-synthesis.
 pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>) -> Transcription {

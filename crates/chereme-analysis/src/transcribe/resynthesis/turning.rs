@@ -10,10 +10,10 @@ use super::*;
 use crate::transcribe::aim::{self, How};
 use crate::transcribe::scene::rotation;
 
-/// A hand that is turned otherwise by this (rad) after re-synthesis has another orientation.
+/// A hand that re-synthesis turns at least this far (rad) from the observed one may have another orientation.
 const OTHERWISE: f64 = 0.035;
 
-/// The error (m) of a hand that is turned otherwise by a radian.
+/// The error (m) of a hand that is turned a radian from the observed one.
 const PER_RADIAN: f64 = 0.07;
 
 /// How often the orientation is corrected.
