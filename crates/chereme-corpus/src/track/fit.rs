@@ -201,8 +201,8 @@ fn report(markers: &str, fitted: &Fitted) -> FitReport {
     }
     if !(STATURES[0]..=STATURES[1]).contains(&fitted.stature) {
         findings.push(format!(
-            "the body of the markers is {:.3} m tall; if that is wrong, import the file again and say its unit with \
-             --unit, such as --unit m",
+            "the body of the markers is {:.3} m tall; if that is wrong, import the file again with \
+             its unit",
             fitted.stature
         ));
     }

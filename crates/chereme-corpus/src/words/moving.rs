@@ -507,8 +507,8 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "ce n’est pas la capture d’un squelette : les marqueurs en sont à {mm} mm (médiane) et se voient dans {share} % des images ; un bon ajustement est sous {most} mm et au-dessus de {least} %",
     ),
     (
-        "the body of the markers is {m} m tall; if that is wrong, import the file again and say its unit with --unit, such as --unit m",
-        "le corps des marqueurs mesure {m} m ; si c’est faux, importez de nouveau le fichier et donnez son unité avec --unit, comme --unit m",
+        "the body of the markers is {m} m tall; if that is wrong, import the file again with its unit",
+        "le corps des marqueurs mesure {m} m ; si c’est faux, importez de nouveau le fichier avec son unité",
     ),
     (
         "the turn of the left forearm and palm about the forearm is a guess, as no pair of markers on the sides of thumb and little finger shows it; call them {a} and {b}",
