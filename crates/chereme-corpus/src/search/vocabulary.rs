@@ -154,7 +154,7 @@ impl Vocabulary {
             .collect()
     }
 
-    /// Returns the accepted values for a wanted value in a part of a component, of which `stored` are the values in use.
+    /// Returns the accepted values for a wanted value in a part of a component; `stored` are the values in use.
     ///
     /// If a value in use has exactly the wanted name, aliases do not make it equal to other values of its inventory.
     pub(crate) fn accepted(
@@ -250,7 +250,7 @@ impl Vocabulary {
             let in_use = wording.filter(|it| it.in_use);
             in_use.is_some_and(|it| known.folded.iter().any(|own| own[0] == it.text))
         };
-        // Values that an inventory with the wanted name tells apart from it.
+        // Values that an inventory with the wanted name distinguishes from it.
         let mut apart: BTreeSet<&str> = BTreeSet::new();
         for known in self.known(component, part).filter(|known| holds(known)) {
             let others = known.values().filter(|(value, own)| !meant(value, own));

@@ -25,7 +25,7 @@ const CHANGES: [&str; 14] = [
     "flattening",
 ];
 
-/// What programs write into a cell without a value: pandas, databases, Python, and Excel with its faults.
+/// The texts that programs write into a cell without a value: pandas, databases, Python, and Excel with its faults.
 const EMPTY: [&str; 13] = [
     "nan", "NaN", "NaT", "NULL", "null", "None", "<NA>", "#N/A", "#REF!", "#VALUE!", "#NAME?",
     "#DIV/0!", "#NUM!",
