@@ -426,8 +426,9 @@ fn figure() -> Skeleton {
 fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let skeleton = Arc::new(figure());
     let anatomy = chereme_motion::Anatomy::detect(&skeleton);
-    let rest = vrma::t_pose(&skeleton, &anatomy);
     let at = |name: &str| skeleton.find(name).expect("a joint");
+    let rate = Rate::new(30, 1).expect("a rate");
+    let rest = vrma::t_pose(&Clip::still(Arc::clone(&skeleton), rate, 1), &anatomy);
     for (name, direction) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
         for (from, to, want) in [
             ("Arm", "ForeArm", direction),
@@ -491,6 +492,71 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
         pose.rotation(hand) * joint.tip.expect("the end of a hand")
     };
     assert!(end(&clip, hand).distance(end(&again, own)) < 1e-6);
+}
+
+/// Returns a figure whose bones all lie along +Z at rest, as some programs write them, standing in its only frame.
+fn along_one_axis(standing: &Skeleton) -> Clip {
+    let mut joints: Vec<Joint> = Vec::new();
+    let mut turns: Vec<DQuat> = Vec::new();
+    for joint in standing.joints() {
+        // Joint n of the figure comes behind its pivot, at 2 n + 1.
+        let above = joint.parent.map(|it| 2 * it + 1);
+        let direction = joint.offset.normalize_or(DVec3::Z);
+        let turn = DQuat::from_rotation_arc(DVec3::Z, direction);
+        joints.push(Joint::new(format!("p{}", joints.len()), above, DVec3::ZERO));
+        let offset = DVec3::Z * joint.offset.length();
+        joints.push(Joint::new(
+            joint.name.clone(),
+            Some(joints.len() - 1),
+            offset,
+        ));
+        turns.extend([turn, turn.inverse()]);
+    }
+    let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
+    let channels = turns.into_iter().map(|turn| Channel {
+        rotations: vec![turn],
+        translations: None,
+    });
+    let rate = Rate::new(30, 1).expect("a rate");
+    Clip::new(skeleton, rate, channels.collect()).expect("a clip")
+}
+
+#[test]
+fn an_avatar_stands_in_the_t_pose_however_its_body_rests() {
+    let turned = |turn: DQuat| {
+        let mut joints = figure().joints().to_vec();
+        joints[0].rest = turn;
+        let skeleton = Arc::new(Skeleton::new(joints).expect("a skeleton"));
+        Clip::still(skeleton, Rate::new(30, 1).expect("a rate"), 1)
+    };
+    let quarter = std::f64::consts::FRAC_PI_2;
+    for (rests, clip) in [
+        ("standing", turned(DQuat::IDENTITY)),
+        ("on its back", turned(DQuat::from_rotation_x(-quarter))),
+        ("on its side", turned(DQuat::from_rotation_z(quarter))),
+        ("facing -Z", turned(DQuat::from_rotation_y(2.0 * quarter))),
+        ("as a line", along_one_axis(&figure())),
+    ] {
+        let anatomy = chereme_motion::Anatomy::detect(clip.skeleton()).with_clip(&clip);
+        let rest = vrma::t_pose(&clip, &anatomy);
+        let at = |name: &str| rest.position(clip.skeleton().find(name).expect("a joint"));
+        for (from, to, want) in [
+            ("Hips", "Neck", DVec3::Y),
+            ("Neck", "Head", DVec3::Y),
+            ("LeftArm", "LeftForeArm", DVec3::X),
+            ("RightForeArm", "RightHand", -DVec3::X),
+            ("LeftUpLeg", "LeftLeg", -DVec3::Y),
+            ("RightLeg", "RightFoot", -DVec3::Y),
+        ] {
+            let is = (at(to) - at(from)).normalize();
+            assert!(is.distance(want) < 1e-6, "{rests}: {from} to {to} is {is}");
+        }
+        let forward = anatomy.body_frame(&rest).expect("a trunk").forward;
+        assert!(
+            forward.distance(DVec3::Z) < 1e-6,
+            "{rests}: faces {forward}"
+        );
+    }
 }
 
 #[test]

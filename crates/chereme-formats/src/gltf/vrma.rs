@@ -4,7 +4,7 @@
 //! can use them. Source: the VRM specification of the VRM Consortium.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side, Skeleton};
+use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side};
 use serde_json::{Map, Value, json};
 
 use crate::reach::{self, TooFar};
@@ -19,6 +19,9 @@ pub struct Expression {
     /// The weight in each frame.
     pub weights: Vec<f64>,
 }
+
+/// The angle in radians from which the trunk of a rest pose does not stand, or does not face +Z.
+const LYING: f64 = 0.5;
 
 /// The names of presets that VRM defines; other expressions are custom ones.
 const PRESETS: [&str; 14] = [
@@ -83,7 +86,7 @@ pub fn write(
     }
     reach::check(clip)?;
     bones.sort_by_key(|(_, joint)| *joint);
-    let rest = t_pose(skeleton, anatomy);
+    let rest = t_pose(clip, anatomy);
     let parents: Vec<Option<usize>> = bones
         .iter()
         .map(|(_, joint)| {
@@ -244,18 +247,50 @@ fn name(part: Part) -> Option<String> {
     })
 }
 
-/// Returns the T-pose of a skeleton: upright, facing +Z, arms along X with palms down, thumbs between X and +Z.
+/// Returns the T-pose of a clip's skeleton: upright, facing +Z, arms along X with palms down, thumbs between X and +Z.
+///
+/// It begins with the rest pose, or with the first frame if no body can rest so: many files keep every bone along one
+/// axis.
 #[must_use]
-pub fn t_pose(skeleton: &Skeleton, anatomy: &Anatomy) -> ModelPose {
+pub fn t_pose(clip: &Clip, anatomy: &Anatomy) -> ModelPose {
+    let skeleton = clip.skeleton();
     let mut pose: Pose = skeleton.rest_pose();
     let mut model = ModelPose::of(skeleton, &pose);
+    let at_rest = anatomy.clone().with_reference(skeleton, &model);
+    let is_posed = at_rest.is_posed() || clip.frames() == 0;
+    if !is_posed {
+        pose.rotations = clip.pose(0).rotations;
+        model.set(skeleton, &pose);
+    }
     let joint = |part: Part| anatomy.joint(part);
+    let turn_by = |pose: &mut Pose, model: &mut ModelPose, from: usize, by: DQuat| {
+        let above = skeleton
+            .parent(from)
+            .map_or(DQuat::IDENTITY, |it| model.rotation(it));
+        pose.rotations[from] = (above.inverse() * by * model.rotation(from)).normalize();
+        model.set(skeleton, pose);
+    };
+    // The trunk of a body at rest leans a little; one that lies, or faces another direction, is put upright.
+    let trunk = anatomy.body_frame(&model).map(|it| it.rotation().inverse());
+    if let Some((hips, upright)) = joint(Part::Hips).zip(trunk)
+        && (!is_posed || upright.angle_between(DQuat::IDENTITY) > LYING)
+    {
+        turn_by(&mut pose, &mut model, hips, upright);
+    }
     let mut aims: Vec<(usize, usize, DVec3)> = Vec::new();
     let mut aim = |from: Option<usize>, to: Option<usize>, direction: DVec3| {
         if let (Some(from), Some(to)) = (from, to) {
             aims.push((from, to, direction));
         }
     };
+    if !is_posed {
+        let spine = [Part::Hips, Part::Spine, Part::Chest, Part::Neck, Part::Head];
+        let mut spine: Vec<usize> = spine.into_iter().filter_map(joint).collect();
+        spine.dedup();
+        for pair in spine.windows(2).skip(1) {
+            aim(Some(pair[0]), Some(pair[1]), DVec3::Y);
+        }
+    }
     for side in [Side::Left, Side::Right] {
         let out = if side == Side::Left {
             DVec3::X
@@ -293,13 +328,6 @@ pub fn t_pose(skeleton: &Skeleton, anatomy: &Anatomy) -> ModelPose {
             Some((joint(Part::Hand(side))?, index, little, out))
         })
         .collect();
-    let turn_by = |pose: &mut Pose, model: &mut ModelPose, from: usize, by: DQuat| {
-        let above = skeleton
-            .parent(from)
-            .map_or(DQuat::IDENTITY, |it| model.rotation(it));
-        pose.rotations[from] = (above.inverse() * by * model.rotation(from)).normalize();
-        model.set(skeleton, pose);
-    };
     for (from, to, direction) in aims {
         let now = (model.position(to) - model.position(from)).normalize_or_zero();
         if now != DVec3::ZERO {
