@@ -16,7 +16,8 @@ use crate::words::Words;
 /// Print the keys of cued speech for a text or for phones
 ///
 /// A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling
-/// turn French text into phones. Phones in the input are separated by blanks; `#` is a pause.
+/// turn French text into phones. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a
+/// pause.
 ///
 /// `--json` gives "code", "words" ("text", "phones"), "keys" ("shape", "placement", "or_placement" if the
 /// vowel is uncertain, "phones" in SAMPA, "start_us", "vowel_us", "end_us": null without --pace) and
@@ -233,8 +234,8 @@ pub(super) const WORDS: Words = Words {
             "Donner des temps aux clés : la durée des phones en multiple de la durée habituelle, de 0.1 à 10 ; qui code en a besoin d’environ 1.6",
         ),
         (
-            "A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling turn French text into phones. Phones in the input are separated by blanks; `#` is a pause.",
-            "Une clé est une configuration à un emplacement : la configuration vaut pour une consonne, l’emplacement pour une voyelle. Des règles d’orthographe donnent les phones d’un texte français. Dans l’entrée, les phones sont séparés par des espaces ; `#` est une pause.",
+            "A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling turn French text into phones. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a pause.",
+            "Une clé est une configuration à un emplacement : la configuration vaut pour une consonne, l’emplacement pour une voyelle. Des règles d’orthographe donnent les phones d’un texte français. Dans l’entrée, les phones sont séparés par des espaces, ou écrits ensemble, comme dans bɔ̃ʒuʁ ; `#` est une pause.",
         ),
         (
             "`--json` gives \"code\", \"words\" (\"text\", \"phones\"), \"keys\" (\"shape\", \"placement\", \"or_placement\" if the vowel is uncertain, \"phones\" in SAMPA, \"start_us\", \"vowel_us\", \"end_us\": null without --pace) and \"findings\".",

@@ -438,8 +438,8 @@ const MESSAGES: &[(&str, &str)] = &[
         "le code {code} n’a pas de règles d’orthographe",
     ),
     (
-        "give phones: --phones sampa, ipa or mfa",
-        "donnez des phones : --phones sampa, ipa ou mfa",
+        "give phones: --phones sampa, ipa or mfa; or --espeak, if espeak-ng is installed",
+        "donnez des phones : --phones sampa, ipa ou mfa ; ou --espeak, si espeak-ng est installé",
     ),
     ("the text has {n} bytes", "le texte a {n} octets"),
     (

@@ -16,20 +16,10 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
         let mut at = 0;
         let mut own: Vec<String> = Vec::new();
         while at < letters.len() {
-            const LONGEST: usize = 4;
-            let most = LONGEST.min(letters.len() - at);
-            let fits = |count: &usize| {
-                let label: String = letters[at..at + count].iter().collect();
-                let known = !label.contains(' ') && code.symbols(&label, Alphabet::Ipa).is_some();
-                known.then_some(label)
-            };
-            match (1..=most)
-                .rev()
-                .find_map(|count| Some((count, fits(&count)?)))
-            {
-                Some((count, label)) => {
+            match first(&letters[at..], code, Alphabet::Ipa) {
+                Some(label) => {
+                    at += label.chars().count();
                     own.push(label);
-                    at += count;
                 }
                 None => {
                     if letters[at] != ' ' {
@@ -50,6 +40,36 @@ pub fn of_espeak(printed: &str, code: &CueCode) -> (String, Vec<char>) {
     (phones.join(" "), unknown)
 }
 
+/// Returns the longest symbol of the code with which some letters begin; `None` if it knows none.
+fn first(letters: &[char], code: &CueCode, alphabet: Alphabet) -> Option<String> {
+    const LONGEST: usize = 4;
+    (1..=LONGEST.min(letters.len())).rev().find_map(|count| {
+        let label: String = letters[..count].iter().collect();
+        let known = !label.contains(' ') && code.symbols(&label, alphabet).is_some();
+        known.then_some(label)
+    })
+}
+
+/// Cuts phones that are written together, such as `bɔ̃ʒuʁ` or `/həˈloʊ/`, into symbols of the code; `None` if a part of
+/// them is none. A symbol of the code is not cut.
+pub(super) fn cut(word: &str, code: &CueCode, alphabet: Alphabet) -> Option<Vec<String>> {
+    if code.symbols(word, alphabet).is_some() {
+        return Some(vec![word.to_owned()]);
+    }
+    let letters: Vec<char> = match alphabet {
+        Alphabet::Ipa => bare(word.trim_matches(['/', '[', ']', '\\']), false),
+        Alphabet::Sampa | Alphabet::Mfa => word.chars().collect(),
+    };
+    let mut symbols = Vec::new();
+    let mut rest = &letters[..];
+    while !rest.is_empty() {
+        let label = first(rest, code, alphabet)?;
+        rest = &rest[label.chars().count()..];
+        symbols.push(label);
+    }
+    (!symbols.is_empty()).then_some(symbols)
+}
+
 /// Returns the letters of a line without marks and names of languages; blanks stay as word boundaries.
 fn bare(line: &str, french: bool) -> Vec<char> {
     let mut inside = false;
@@ -59,7 +79,7 @@ fn bare(line: &str, french: bool) -> Vec<char> {
             '(' => inside = true,
             ')' => inside = false,
             _ if inside => {}
-            'ˈ' | 'ˌ' | '.' | '-' | '_' | '\u{200d}' | '\u{361}' => {}
+            'ˈ' | 'ˌ' | '.' | '-' | '_' | '‿' | '\u{200d}' | '\u{361}' => {}
             'ː' if french => {}
             _ if letter.is_whitespace() => letters.push(' '),
             _ => letters.push(letter),

@@ -73,7 +73,7 @@ pub struct Key {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 pub enum CueFinding {
     /// A symbol that the code does not know; it has no key.
-    #[error("phone {position} {label:?} is not in the code {code:?}; it has no key")]
+    #[error("phone {position} \"{label}\" is not in the code {code:?}; it has no key")]
     UnknownPhone {
         /// The position in the input, from 1.
         position: usize,
@@ -83,7 +83,7 @@ pub enum CueFinding {
         code: String,
     },
     /// Two phones that overlap in time or stand in the wrong order.
-    #[error("phone {position} {label:?} begins before the phone before it ends")]
+    #[error("phone {position} \"{label}\" begins before the phone before it ends")]
     Overlap {
         /// The position in the input, from 1.
         position: usize,

@@ -3,7 +3,7 @@
 use crate::Remedy;
 use chereme_motion::{Instant, Span};
 
-use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, french};
+use super::{Alphabet, CueCode, CueFinding, Key, Phone, code, codes, espeak, french};
 
 /// The form of an utterance, and the code that cues it.
 #[derive(Debug, Clone)]
@@ -92,7 +92,9 @@ impl UtteranceError {
             Self::Variant(variant) => format!("the variants are {}", variant.known),
             Self::Long(_) => "give at most 1 MiB at once".to_owned(),
             Self::NoSpelling(_) => {
-                return Remedy::command("give phones: --phones sampa, ipa or mfa");
+                return Remedy::command(
+                    "give phones: --phones sampa, ipa or mfa; or --espeak, if espeak-ng is installed",
+                );
             }
             Self::Pace(_) => "a pace from 0.1 to 10; 1.6 is usual for people who cue".to_owned(),
             Self::NoDurations(_) => {
@@ -113,7 +115,7 @@ const LONGEST_MS: f64 = 60_000.0;
 const USUAL_MS: f64 = 100.0;
 
 impl Utterance {
-    /// Reads text, or phones separated by blanks; `a=120` is a phone of 120 ms.
+    /// Reads text, or phones, separated by blanks or written together; `a=120` is a phone of 120 ms.
     ///
     /// # Errors
     /// [`UtteranceError`] if the code, a variant, the pace or a duration is wrong, the input is larger than
@@ -131,7 +133,11 @@ impl Utterance {
         let alphabet = match reading.phones {
             Some(alphabet) => {
                 for word in input.split_whitespace() {
-                    given.push(with_duration(word)?);
+                    let (label, ms) = with_duration(word)?;
+                    match espeak::cut(&label, &code, alphabet).filter(|_| ms.is_none()) {
+                        Some(symbols) => given.extend(symbols.into_iter().map(|it| (it, None))),
+                        None => given.push((label, ms)),
+                    }
                 }
                 alphabet
             }
@@ -286,6 +292,40 @@ fn mark_doubt(key: &mut Key, doubtful: &[usize], code: &CueCode) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn phones_written_together_are_those_with_blanks_between_them() {
+        for (code, alphabet, together, apart) in [
+            ("french", Alphabet::Ipa, "bɔ̃ʒuʁ", "b ɔ̃ ʒ u ʁ"),
+            ("french", Alphabet::Ipa, "/lə.ʃa/ [dɔʁ]", "l ə ʃ a d ɔ ʁ"),
+            ("french", Alphabet::Ipa, "\\œ̃.n‿wa.zo\\", "œ̃ n w a z o"),
+            ("french", Alphabet::Sampa, "bO~ZuR", "b O~ Z u R"),
+            (
+                "english-us",
+                Alphabet::Ipa,
+                "həˈloʊ tʃɛɹ",
+                "h ə l oʊ tʃ ɛ ɹ",
+            ),
+            ("english-us", Alphabet::Mfa, "HH AH0 L OW1", "HH AH0 L OW1"),
+            ("french", Alphabet::Ipa, "t͡ʃaχ", "t͡ʃaχ"),
+            ("french", Alphabet::Ipa, "bu=300", "bu=300"),
+        ] {
+            let reading = Reading {
+                code: code.to_owned(),
+                phones: Some(alphabet),
+                ..Reading::default()
+            };
+            let labels = |text: &str| {
+                let read = Utterance::read(text, &reading).expect("read");
+                read.phones
+                    .into_iter()
+                    .map(|it| it.label)
+                    .collect::<Vec<_>>()
+            };
+            let apart: Vec<String> = apart.split(' ').map(|it| it.replace("=300", "")).collect();
+            assert_eq!(labels(together), apart, "{together}");
+        }
+    }
 
     #[test]
     fn phones_with_durations_read_back_unchanged() {
