@@ -4,6 +4,7 @@ use std::io::Write;
 use std::ops::Range;
 
 use chereme_formats::eaf::Transcript;
+use chereme_formats::gltf::vrma::{self, AvatarFace, Expression};
 use chereme_formats::table::annotations;
 use chereme_formats::{TooFar, c3d, gltf, subtitles, textgrid, trc};
 use chereme_motion::{Clip, Instant, Span};
@@ -65,11 +66,17 @@ fn on_the_clock(track: &MotionTrack, clip: &Clip, frames: &Range<usize>) -> Span
     own.shifted(track.row.offset_us)
 }
 
-/// Writes the movement of a stretch as VRMA, for avatars; non-manuals are expressions.
+/// Writes the movement of a stretch as VRMA, for avatars. Its face gives the presets of VRM and the gaze; each
+/// non-manual is an expression, too.
 ///
 /// # Errors
 /// Fails if the recording has no movement of a humanoid, or writing fails.
-pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Write) -> Result<()> {
+pub(super) fn vrma(
+    connection: &Connection,
+    stretch: &Stretch,
+    out: &mut dyn Write,
+    notes_of_file: &mut Vec<String>,
+) -> Result<()> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
     let frames = match stretch.token {
         Some(_) => track.frames_in(stretch.span),
@@ -79,26 +86,62 @@ pub(super) fn vrma(connection: &Connection, stretch: &Stretch, out: &mut dyn Wri
     let anatomy = track.anatomy(connection)?;
     let span = on_the_clock(&track, &clip, &frames);
     let curves = crate::curves::of_track(connection, &track, frames)?;
-    let expressions: Vec<gltf::vrma::Expression> = curves
-        .into_iter()
-        .map(|curve| gltf::vrma::Expression {
-            name: curve.name,
-            weights: curve.values,
-        })
+    let mut face = AvatarFace::of(&chereme_compose::faces(&curves));
+    let has = |face: &AvatarFace, name: &str| face.expressions.iter().any(|it| it.name == name);
+    for curve in curves {
+        if !has(&face, &curve.name) {
+            face.expressions.push(Expression {
+                name: curve.name,
+                weights: curve.values,
+            });
+        }
+    }
+    let custom = face.expressions.iter().map(|it| it.name.as_str());
+    let custom: Vec<&str> = custom
+        .filter(|it| !vrma::is_preset(it) && !is_shown_by_presets(it))
         .collect();
+    if !custom.is_empty() {
+        notes_of_file.push(format!(
+            "expressions that VRM does not define move only avatars that have them by name: {}",
+            custom.join(", ")
+        ));
+    }
+    let missing = vrma::missing(&anatomy);
+    if !missing.is_empty() {
+        notes_of_file.push(format!(
+            "the body lacks bones that VRM requires, so some programs refuse the file: {}",
+            missing.join(", ")
+        ));
+    }
     let about = gltf::About {
         name: stretch.recording.name.clone(),
         licence: stretch.recording.licence.clone(),
         notes: notes(connection, stretch.recording.id, span)?,
     };
-    let bytes =
-        gltf::vrma::write(&clip, &anatomy, &expressions, &about).map_err(|error| match error {
-            gltf::vrma::WriteError::TooFar(error) => too_far(&error),
-            gltf::vrma::WriteError::NoAvatar(reason) => Error::wrong(reason).advise(
-                Remedy::command("say which joint is what with `chereme track`, or write .glb"),
-            ),
-        })?;
+    let bytes = vrma::write(&clip, &anatomy, &face, &about).map_err(|error| match error {
+        vrma::WriteError::TooFar(error) => too_far(&error),
+        vrma::WriteError::NoAvatar(reason) => Error::wrong(reason).advise(Remedy::command(
+            "say which joint is what with `chereme track`, or write .glb",
+        )),
+    })?;
     put(out, &bytes)
+}
+
+/// Returns whether a curve of a face moves eyelids, eyes or lips, which presets of VRM and its gaze show.
+fn is_shown_by_presets(curve: &str) -> bool {
+    const PARTS: [&str; 3] = ["lids", "gaze", "mouthing"];
+    const NUMBERS: [&str; 5] = [
+        "eye_close",
+        "gaze",
+        "jaw_open",
+        "lips_part",
+        "mouth_stretch",
+    ];
+    match curve.split_once('.') {
+        Some(("face", number)) => NUMBERS.iter().any(|it| number.starts_with(it)),
+        Some((part, _)) => PARTS.contains(&part),
+        None => false,
+    }
 }
 
 /// The formats of marker tracks.

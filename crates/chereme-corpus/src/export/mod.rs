@@ -94,7 +94,7 @@ impl Corpus {
     /// | `.eaf` | the tiers of one recording, for ELAN |
     /// | `.bvh` | the movement of one recording or token |
     /// | `.glb` | the same as glTF with a skin, visible bones and the annotations, for Blender and the web |
-    /// | `.vrma` | the movement of a humanoid for avatars, its non-manuals as expressions |
+    /// | `.vrma` | the movement of a humanoid for avatars, its face as VRM's presets and gaze, its non-manuals as expressions |
     /// | `.c3d`, `.trc` | the markers of one recording or token |
     /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, one row for each frame |
     /// | `.TextGrid` | the tiers of one recording, for Praat |
@@ -361,7 +361,7 @@ fn write_file(
         (Format::Parquet(long), _) => long::write(connection, what, long, out, notes, progress),
         (Format::Vrma, _) => {
             let stretch = stretch(connection, what)?;
-            foreign::vrma(connection, &stretch, out)
+            foreign::vrma(connection, &stretch, out, notes)
         }
         (Format::Points(form), _) => {
             let stretch = stretch(connection, what)?;

@@ -155,6 +155,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "l’enregistrement n’a pas d’occurrences : la table contient ses courbes",
     ),
     (
+        "expressions that VRM does not define move only avatars that have them by name: {names}",
+        "les expressions que VRM ne définit pas n’animent que les avatars qui les ont sous ce nom : {names}",
+    ),
+    (
+        "the body lacks bones that VRM requires, so some programs refuse the file: {names}",
+        "il manque au corps des os que VRM exige, certains programmes refusent donc le fichier : {names}",
+    ),
+    (
         "the file holds markers alone, without the curves {names}; .curves.csv holds those",
         "le fichier ne contient que des marqueurs, sans les courbes {names} ; .curves.csv les contient",
     ),

@@ -7,6 +7,9 @@
 //! Khronos Group.
 
 mod accessor;
+mod avatar_face;
+#[cfg(test)]
+mod avatar_tests;
 mod container;
 mod error;
 mod model;

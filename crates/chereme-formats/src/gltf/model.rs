@@ -1,5 +1,7 @@
 //! The part of the JSON of glTF that movement needs.
 
+use std::collections::BTreeMap;
+
 use serde::Deserialize;
 use serde_json::Value;
 
@@ -18,6 +20,39 @@ pub(super) struct Document {
     pub(super) accessors: Vec<Accessor>,
     pub(super) buffer_views: Vec<BufferView>,
     pub(super) buffers: Vec<Buffer>,
+}
+
+/// The part of a face that a node of a VRMA stands for.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum FaceNode {
+    /// The strength of an expression: its name.
+    Expression(String),
+    /// The direction of the eyes.
+    Gaze,
+}
+
+impl Document {
+    /// Returns the nodes of a VRMA whose movement is that of a face, not of a joint.
+    pub(super) fn face_nodes(&self) -> BTreeMap<usize, FaceNode> {
+        let Some(animation) = self.extensions.get("VRMC_vrm_animation") else {
+            return BTreeMap::new();
+        };
+        let node = |of: &Value| of.get("node")?.as_u64().and_then(|it| it.try_into().ok());
+        let kinds = ["preset", "custom"].into_iter();
+        let kinds = kinds.filter_map(|kind| animation.get("expressions")?.get(kind)?.as_object());
+        let mut nodes: BTreeMap<usize, FaceNode> = kinds
+            .flatten()
+            .filter_map(|(name, of)| {
+                let node: usize = node(of)?;
+                let original = self.nodes.get(node)?.extras.get("name");
+                let name = original.and_then(Value::as_str).unwrap_or(name);
+                Some((node, FaceNode::Expression(name.to_owned())))
+            })
+            .collect();
+        let gaze = animation.get("lookAt").and_then(node);
+        nodes.extend(gaze.map(|node: usize| (node, FaceNode::Gaze)));
+        nodes
+    }
 }
 
 #[derive(Debug, Default, Deserialize)]

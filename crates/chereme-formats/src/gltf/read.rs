@@ -5,9 +5,10 @@ use std::sync::Arc;
 use chereme_motion::{Channel, Clip, Column, Convention, Curve, Curves, Rate, Skeleton, Times};
 
 use super::accessor::Data;
+use super::avatar_face::gaze;
 use super::container::{buffers, chunks};
 use super::error::Error;
-use super::model::{Animation, Document};
+use super::model::{Animation, Document, FaceNode};
 use super::rig::{Rig, SAME_SCALE};
 use super::sample::Keys;
 use crate::finding::Finding;
@@ -164,7 +165,7 @@ fn scene(data: &Data<'_>, rig: Rig, findings: &mut Findings) -> Result<Scene, Er
     })
 }
 
-/// Weights of the morph targets of a node.
+/// Weights of the morph targets of a node, or the movement of a node that stands for a part of a face.
 struct Weights {
     node: usize,
     keys: Keys,
@@ -178,12 +179,23 @@ fn samplers(
 ) -> Result<(Vec<Moved>, Vec<Weights>), Error> {
     let mut moved: Vec<Moved> = rig.joints.iter().map(|_| Moved::default()).collect();
     let mut weights = Vec::new();
+    let face = data.document.face_nodes();
     for (at, channel) in animation.channels.iter().enumerate() {
         // An extension may animate a target that is not a node.
         let Some(node) = channel.target.node else {
             continue;
         };
         let joint = rig.nodes.iter().position(|known| *known == Some(node));
+        if joint.is_none() && face.contains_key(&node) {
+            let width = match (&face[&node], channel.target.path.as_str()) {
+                (FaceNode::Expression(_), "translation") => 3,
+                (FaceNode::Gaze, "rotation") => 4,
+                _ => continue,
+            };
+            let keys = keys(data, animation, channel.sampler, width)?;
+            weights.push(Weights { node, keys });
+            continue;
+        }
         let width = match channel.target.path.as_str() {
             "rotation" => 4,
             "translation" => 3,
@@ -343,7 +355,25 @@ impl Grid {
 
 fn morphs(document: &Document, weights: &[Weights], grid: &Grid) -> Option<Curves> {
     let mut curves = Vec::new();
+    let face = document.face_nodes();
     for moved in weights {
+        match face.get(&moved.node) {
+            Some(FaceNode::Expression(name)) => {
+                let weight = |time| moved.keys.place_at(time).x as f32;
+                let values = grid.times().map(weight).collect();
+                curves.push(Curve::new(name.clone(), Column::singles(values)));
+                continue;
+            }
+            Some(FaceNode::Gaze) => {
+                for (name, axis) in [("gaze_left", 0), ("gaze_up", 1)] {
+                    let degrees = |time| gaze(moved.keys.turn_at(time))[axis] as f32;
+                    let values = grid.times().map(degrees).collect();
+                    curves.push(Curve::new(name, Column::singles(values)));
+                }
+                continue;
+            }
+            None => {}
+        }
         let mesh = document
             .nodes
             .get(moved.node)

@@ -1,10 +1,12 @@
 //! The skeleton of a glTF document.
 
+use std::collections::BTreeMap;
+
 use chereme_motion::Joint;
 use chereme_motion::glam::{DMat4, DQuat, DVec3};
 
 use super::error::Error;
-use super::model::{Document, Node};
+use super::model::{Document, FaceNode, Node};
 use super::sample::turn;
 use crate::finding::Finding;
 use crate::tally::Findings;
@@ -68,7 +70,10 @@ impl Rig {
         if let Some(at) = below_itself(nodes, &parents) {
             return Err(Error::element("nodes", at, "is below itself"));
         }
-        let kept = kept(document, &parents)?;
+        let mut kept = kept(document, &parents, &document.face_nodes())?;
+        if !kept.contains(&true) {
+            kept = self::kept(document, &parents, &BTreeMap::new())?;
+        }
         let roots: Vec<usize> = (0..nodes.len())
             .filter(|at| kept[*at] && parents[*at].is_none())
             .collect();
@@ -192,8 +197,12 @@ fn uniform(scale: DVec3, at: usize, node: &Node, findings: &mut Findings) -> f64
     }
 }
 
-/// Marks joints of skins, animated nodes, and all nodes above them.
-fn kept(document: &Document, parents: &[Option<usize>]) -> Result<Vec<bool>, Error> {
+/// Marks joints of skins, animated nodes that stand for no part of a face, and all nodes above them.
+fn kept(
+    document: &Document,
+    parents: &[Option<usize>],
+    face: &BTreeMap<usize, FaceNode>,
+) -> Result<Vec<bool>, Error> {
     let mut kept = vec![false; parents.len()];
     let of_skins = document
         .skins
@@ -205,7 +214,8 @@ fn kept(document: &Document, parents: &[Option<usize>]) -> Result<Vec<bool>, Err
         .flat_map(|animation| &animation.channels);
     let animated = animated
         .filter(|channel| channel.target.path != "weights")
-        .filter_map(|channel| channel.target.node);
+        .filter_map(|channel| channel.target.node)
+        .filter(|node| !face.contains_key(node));
     for node in of_skins.chain(animated) {
         let mut at = Some(node);
         let mut steps = 0;

@@ -8,20 +8,18 @@ use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side};
 use serde_json::{Map, Value, json};
 
 use crate::reach::{self, TooFar};
+use crate::tracks::unique;
 
+use super::avatar_face;
 use super::write::{About, Parts, container, plain, turn, vector};
 
-/// The strength of a facial expression in each frame, from 0 to 1.
-#[derive(Debug, Clone, PartialEq, Default)]
-pub struct Expression {
-    /// The name.
-    pub name: String,
-    /// The weight in each frame.
-    pub weights: Vec<f64>,
-}
+pub use super::avatar_face::{AvatarFace, Expression};
 
 /// The angle in radians from which the trunk of a rest pose does not stand, or does not face +Z.
 const LYING: f64 = 0.5;
+
+/// The place of the eyes from the joint of the head, in metres.
+const EYES: [f64; 3] = [0.0, 0.06, 0.0];
 
 /// The names of presets that VRM defines; other expressions are custom ones.
 const PRESETS: [&str; 14] = [
@@ -55,14 +53,14 @@ pub enum WriteError {
 /// Returns a clip in metres of model space as VRMA.
 ///
 /// Rotations of joints that VRM does not know are added to those of the bones below them. Only the hips change their
-/// position. Feet of the rest pose stand at height 0. A node's `extras.tip` is the end of a bone without a further joint.
+/// position. Expressions and gaze need a value in each frame; others are left out. Feet of the rest pose stand at height 0. A node's `extras.tip` is the end of a bone without a further joint.
 ///
 /// # Errors
 /// [`WriteError`] if the skeleton lacks hips or arms, the clip has no frame, or a place does not fit into the file.
 pub fn write(
     clip: &Clip,
     anatomy: &Anatomy,
-    expressions: &[Expression],
+    face: &AvatarFace,
     about: &About,
 ) -> Result<Vec<u8>, WriteError> {
     let skeleton = clip.skeleton();
@@ -158,13 +156,21 @@ pub fn write(
     }
     let (mut presets, mut customs) = (Map::new(), Map::new());
     let mut roots = vec![hips];
-    for expression in expressions
+    let expressions: Vec<&Expression> = face
+        .expressions
         .iter()
         .filter(|it| it.weights.len() == poses.len())
-    {
+        .collect();
+    let names: Vec<String> = expressions.iter().map(|it| plain(&it.name)).collect();
+    let names = unique(names.iter().map(String::as_str), "expression");
+    for (expression, name) in expressions.into_iter().zip(names) {
         let node = nodes.len();
-        let name = plain(&expression.name);
-        nodes.push(json!({"name": format!("expression_{name}")}));
+        let name = plain(&name);
+        let mut made = json!({"name": format!("expression_{name}")});
+        if name != expression.name {
+            made["extras"] = json!({"name": expression.name});
+        }
+        nodes.push(made);
         roots.push(node);
         let weights = expression.weights.iter();
         let weights: Vec<f32> = weights
@@ -176,6 +182,15 @@ pub fn write(
         let all = if preset { &mut presets } else { &mut customs };
         all.insert(name, json!({"node": node}));
     }
+    let look = (face.gaze.len() == poses.len()).then(|| {
+        nodes.push(json!({"name": "look_at"}));
+        roots.push(nodes.len() - 1);
+        let turns = face.gaze.iter().map(|it| avatar_face::rotation(*it));
+        let turns: Vec<f32> = turns.flat_map(turn).collect();
+        let output = parts.floats(&turns, "VEC4", 4, None);
+        add(nodes.len() - 1, "rotation", output);
+        nodes.len() - 1
+    });
     let human: Map<String, Value> = bones
         .iter()
         .enumerate()
@@ -184,6 +199,9 @@ pub fn write(
     let mut extension = json!({"specVersion": "1.0", "humanoid": {"humanBones": human}});
     if !presets.is_empty() || !customs.is_empty() {
         extension["expressions"] = json!({"preset": presets, "custom": customs});
+    }
+    if let Some(node) = look {
+        extension["lookAt"] = json!({"node": node, "offsetFromHeadBone": EYES});
     }
     let mut document = json!({
         "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
@@ -206,6 +224,42 @@ pub fn write(
         document["asset"]["copyright"] = licence.as_str().into();
     }
     Ok(container(&document, parts.bytes))
+}
+
+/// The bones that VRM requires.
+const REQUIRED: [&str; 15] = [
+    "hips",
+    "spine",
+    "head",
+    "leftUpperArm",
+    "leftLowerArm",
+    "leftHand",
+    "rightUpperArm",
+    "rightLowerArm",
+    "rightHand",
+    "leftUpperLeg",
+    "leftLowerLeg",
+    "leftFoot",
+    "rightUpperLeg",
+    "rightLowerLeg",
+    "rightFoot",
+];
+
+/// Returns the bones that VRM requires and a skeleton lacks.
+#[must_use]
+pub fn missing(anatomy: &Anatomy) -> Vec<&'static str> {
+    let found: Vec<String> = anatomy
+        .found()
+        .filter_map(|(part, ..)| name(part))
+        .collect();
+    let lacks = |bone: &&str| !found.iter().any(|it| it == bone);
+    REQUIRED.into_iter().filter(lacks).collect()
+}
+
+/// Returns whether an expression is one that VRM defines.
+#[must_use]
+pub fn is_preset(name: &str) -> bool {
+    PRESETS.contains(&name)
 }
 
 /// Returns the name of a part in VRM 1.0.
