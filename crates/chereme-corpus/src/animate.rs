@@ -144,7 +144,7 @@ fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationF
         on: staging.signer.map(str::to_owned),
     };
     let text = match notation {
-        [] => {
+        all if all.iter().all(|it| it.trim().is_empty()) => {
             return Err(Error::wrong("there is no notation")
                 .advise("write HamNoSys, a SiGML file, or the gloss of a notated sign"));
         }
@@ -157,12 +157,19 @@ fn leaf(notation: &[&str], staging: &Staging<'_>) -> Result<(Node, Vec<NotationF
             (Node::Hamnosys(notated(of)), findings)
         }
         None => {
-            let mut findings = Vec::new();
+            let (mut names, mut findings) = (Vec::new(), Vec::new());
             for name in notation {
-                findings.extend(odd_in_file(name)?);
+                let text = (notation.len() > 1 && !Path::new(name).is_file())
+                    .then(|| plain_text(name))
+                    .transpose()?;
+                let (name, odd) = match text.flatten() {
+                    Some(text) => understood(&text)?,
+                    None => ((*name).to_owned(), odd_in_file(name)?),
+                };
+                names.push(name);
+                findings.extend(odd);
             }
-            let of = notation.join(NEXT);
-            (Node::Sigml(notated(of)), findings)
+            (Node::Sigml(notated(names.join(NEXT))), findings)
         }
     })
 }
@@ -287,6 +294,59 @@ mod tests {
             "{last}"
         );
         assert!(understood("hamparend").is_err(), "nothing is understood");
+    }
+
+    #[test]
+    fn signs_are_animated_one_after_another_however_they_are_given() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+        let (fist, flat) = (
+            "hamfist hamextfingeru hampalml hamchest",
+            "hamflathand hamextfingeru hampalml hamchin hamtouch",
+        );
+        let mut animate = |notation: &[&str], gloss: Option<&str>| {
+            corpus.animate(notation, &Staging::default(), gloss)
+        };
+        animate(&[flat], Some("FLAT")).expect("made");
+        let file = folder.path().join("fist.sigml");
+        let text = "<sigml><hns_sign gloss=\"F\"><hamnosys_manual><hamfist/><hamextfingeru/><hampalml/>\
+                    <hamchest/></hamnosys_manual></hns_sign></sigml>";
+        fs::write(&file, text).expect("written");
+        let file = file.display().to_string();
+        let both = animate(&[fist, flat], None).expect("made").duration_us;
+        for notation in [
+            [fist, "FLAT"],
+            [&file, flat],
+            [&file, "FLAT"],
+            ["hamfist hamextfingeru hampalml hamchest hamnonsense", flat],
+        ] {
+            let done = animate(&notation, None).expect("made");
+            assert_eq!(done.duration_us, both, "{notation:?}");
+            let odd = notation[0].contains("nonsense");
+            assert_eq!(done.findings.is_empty(), !odd, "{:?}", done.findings);
+        }
+        for nothing in ["", " "] {
+            let error = animate(&[nothing], None).expect_err("nothing");
+            assert_eq!(error.to_string(), "there is no notation");
+        }
+        // A sign keeps the notation from which it was generated, until its movement is another one.
+        corpus.recombine("FLAT | swap", "SWAPPED").expect("made");
+        corpus.recombine("sigml FLAT", "AGAIN").expect("made");
+        for (gloss, notation) in [
+            ("FLAT", Some(flat)),
+            ("SWAPPED", None),
+            ("AGAIN", Some(flat)),
+        ] {
+            let address: Address = gloss.parse().expect("an address");
+            let found = corpus.notation(&address).ok();
+            assert_eq!(found.as_ref().and_then(|it| it.text.as_deref()), notation);
+            let mut written = Vec::new();
+            let what = crate::ExportWhat::Address(address);
+            let mut hear = crate::unheard;
+            let mut progress = crate::Progress::new(&mut hear);
+            let notes = corpus.export_stream(&what, "hns", &mut written, &mut progress);
+            assert_eq!(notes.is_ok(), notation.is_some(), "{gloss}");
+        }
     }
 
     #[test]

@@ -9,12 +9,13 @@ use chereme_formats::{Finding, hns, sigml};
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::{Choice, Remedy};
 use rusqlite::Connection;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name};
 use crate::db::notations::{self, NotationRow};
-use crate::db::{damaged, signs};
+use crate::db::{damaged, recipes, signs};
 use crate::error::{Error, Result};
 
 /// The most bytes of a file that are read to recognise its kind.
@@ -41,7 +42,7 @@ pub struct Notation {
 
 impl Corpus {
     /// Returns the notation of the token at an address, or of a sign: that of its citation form, otherwise that of the
-    /// first of its tokens that has one.
+    /// first of its tokens that has one, otherwise that from which it was generated.
     ///
     /// # Errors
     /// Fails if the address names no token or sign, or nothing notated.
@@ -81,7 +82,7 @@ pub(crate) fn named(connection: &Connection, name: &str) -> Result<Vec<Notation>
     Ok(if sign.is_empty() { others } else { sign })
 }
 
-/// Returns the notation of the object at an address.
+/// Returns the notation of the object at an address, or that from which it was generated.
 pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notation> {
     let sign = match address {
         Address::Sign(Name::Number(id)) => Some(*id),
@@ -98,6 +99,11 @@ pub(crate) fn find(connection: &Connection, address: &Address) -> Result<Notatio
         if let Some(found) = of_token(connection, token.id)? {
             return Ok(found);
         }
+    }
+    let ids: Vec<i64> = tokens.iter().map(|token| token.id).collect();
+    let mut generated = of_recipes(connection, &ids)?;
+    if let Some(found) = ids.iter().find_map(|id| generated.remove(id)) {
+        return Ok(found);
     }
     Err(Error::wrong(format!("{address} has no notation"))
         .at(address.to_string())
@@ -119,6 +125,45 @@ pub(crate) fn of_tokens(
     for ids in tokens.chunks(signs::AT_ONCE) {
         for (token, row) in notations::of_tokens(connection, ids)? {
             found.insert(token, read(row)?);
+        }
+    }
+    Ok(found)
+}
+
+/// Returns the notations from which these tokens were generated, by token. A sign that was changed after that, a
+/// sequence of signs, and a recording with several tokens have none.
+pub(crate) fn of_recipes(
+    connection: &Connection,
+    tokens: &[i64],
+) -> Result<BTreeMap<i64, Notation>> {
+    let mut found = BTreeMap::new();
+    for ids in tokens.chunks(signs::AT_ONCE) {
+        for row in recipes::of_lone_tokens(connection, ids)? {
+            let (token, gloss, document) = row;
+            let inputs: Value = serde_json::from_str(&document)
+                .map_err(|error| damaged(format!("recipe of token {token}"), error.to_string()))?;
+            for system in ["hamnosys", "sigml"] {
+                let of = inputs["recipe"]["make"].get(system).map(|_| {
+                    let answer = &inputs["inputs"][format!("/{system}/of")]["notation"];
+                    Vec::<Notated>::deserialize(answer).unwrap_or_default()
+                });
+                let Some([document]) = of.as_deref() else {
+                    continue;
+                };
+                let document = Notated {
+                    gloss: gloss.clone(),
+                    ..document.clone()
+                };
+                let own = Notation {
+                    token,
+                    system: system.to_owned(),
+                    file: None,
+                    line: None,
+                    text: document.text.clone(),
+                    document,
+                };
+                found.insert(token, own);
+            }
         }
     }
     Ok(found)

@@ -3,6 +3,7 @@
 use rusqlite::{Connection, OptionalExtension, params};
 use serde::Serialize;
 
+use super::signs::json_list;
 use crate::error::Result;
 
 /// The recipe of a generated recording.
@@ -149,6 +150,25 @@ pub(crate) fn body_of(
         )?
         .query_row(params![recording, skeleton], |row| row.get(0))
         .optional()?)
+}
+
+/// Returns the gloss and the recipe's JSON of generated tokens that are alone in their recording: token, gloss, JSON.
+pub(crate) fn of_lone_tokens(
+    connection: &Connection,
+    tokens: &[i64],
+) -> Result<Vec<(i64, String, String)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT t.id, s.gloss, r.document FROM token t
+         JOIN sign s ON s.id = t.sign_id JOIN recipe r ON r.recording_id = t.recording_id
+         WHERE t.id IN (SELECT value FROM json_each(?1)) AND NOT EXISTS
+             (SELECT 1 FROM token other WHERE other.recording_id = t.recording_id AND other.id <> t.id)",
+    )?;
+    let rows = statement
+        .query_map([json_list(tokens)], |row| {
+            Ok((row.get(0)?, row.get(1)?, row.get(2)?))
+        })?
+        .collect::<rusqlite::Result<_>>()?;
+    Ok(rows)
 }
 
 /// Returns the addresses of a recipe's inputs, in order, each once.

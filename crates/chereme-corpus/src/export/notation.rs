@@ -66,7 +66,8 @@ fn notated(
 ) -> Result<Vec<Notated>> {
     let mut signs = Vec::new();
     for (part, ids) in tokens.chunks(AT_ONCE).enumerate() {
-        let mut found = notation::of_tokens(connection, ids)?;
+        let mut found = notation::of_recipes(connection, ids)?;
+        found.extend(notation::of_tokens(connection, ids)?);
         signs.extend(ids.iter().filter_map(|id| Some(found.remove(id)?.document)));
         progress.report(Step {
             task: "notation",

@@ -10,7 +10,7 @@ use chereme_formats::bvh::raw::{Block, Reader};
 use chereme_motion::Clip;
 use chereme_motion::anatomy::{Anatomy, Roles};
 use chereme_sign::Handedness;
-use chereme_sign::hamnosys::Notated;
+use chereme_sign::hamnosys::{self, Notated};
 use sha2::{Digest, Sha256};
 
 use super::{CorpusSources, missing, unreadable};
@@ -30,7 +30,8 @@ const OWN_RECORDING: &str = "bol.bvh";
 pub(crate) const NEXT: &str = " + ";
 
 impl CorpusSources<'_> {
-    /// Returns the notated signs for a name: from the corpus, from a file, or several names separated by ` + `.
+    /// Returns the notated signs for a name: from the corpus, from a file, HamNoSys text, or several of these separated
+    /// by ` + `.
     pub(super) fn notated(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {
         let error = match notation::named(self.connection, name) {
             Ok(found) if !found.is_empty() => {
@@ -44,6 +45,13 @@ impl CorpusSources<'_> {
             return read.map(|(signs, _)| signs).map_err(|e| unreadable(&e));
         }
         if !name.contains(NEXT) {
+            if let Ok(read) = hamnosys::parse(name) {
+                return Ok(vec![Notated {
+                    text: Some(name.to_owned()),
+                    sign: read.sign,
+                    ..Notated::default()
+                }]);
+            }
             if self.has(name) {
                 let address = name.to_owned();
                 return Err(SourceError::NoNotation { address });
