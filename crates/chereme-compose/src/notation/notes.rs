@@ -40,7 +40,7 @@ pub(crate) fn notes(
         })
         .collect();
     for (sign, own) in signs.iter().zip(&plan.signs) {
-        for (value, (from, to)) in components(sign, plan, own, warp) {
+        for (value, (from, to)) in components(sign, plan, own, sides, warp) {
             notes.push(Note {
                 hand: value.field.hand.map(|hand| match hand {
                     HandRef::Right => Side::Right,
@@ -103,10 +103,16 @@ fn components(
     sign: &Notated,
     plan: &SignPlan,
     own: &SignSpan,
+    sides: [Side; 2],
     warp: &Warp,
 ) -> Vec<(MappedValue, (f64, f64))> {
-    static MAPPER: LazyLock<Mapper<'static>> = LazyLock::new(|| Mapper::new(inventory::builtin()));
-    let values = MAPPER.map(sign).values;
+    static MAPPERS: LazyLock<[Mapper<'static>; 2]> = LazyLock::new(|| {
+        let mapper = || Mapper::new(inventory::builtin());
+        [mapper(), mapper().of_left_handed(true)]
+    });
+    let values = MAPPERS[usize::from(sides[0] == Side::Left)]
+        .map(sign)
+        .values;
     let field = |of: &MappedValue| {
         let field = &of.field;
         (field.hand, field.component, field.feature.clone())

@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, Clip, ModelPose, Side};
-use chereme_sign::Handedness;
 use chereme_sign::hamnosys::{
     Aim, BodyLocation, BodyPlace, Constellation, Contact, Directed, Each, Frame, HandClass,
     HandLocation, HandSite, HandsUsed, Handshape, Manual, Motion, MotionKind, Place, Posture,
     Repeat, Repetition, Sign, Site, Size, Symmetry,
 };
+use chereme_sign::{Handedness, Reading};
 
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 
 use super::*;
-use crate::About;
 use crate::testing::{Axes, skeleton};
+use crate::{About, Note};
 
 pub(super) fn stage(axes: Axes) -> Material {
     let skeleton = Arc::new(skeleton(axes, 1.0));
@@ -268,6 +268,19 @@ fn left_handed_signers_mirror_everything() {
         let a = landmark(&right, share, "right-index-tip");
         let b = landmark(&left, share, "left-index-tip");
         assert!(a.distance(DVec3::new(-b.x, b.y, b.z)) < 1e-6);
+    }
+    // The values are the signer's own left and right, as the hand moves.
+    for (made, hand, want) in [
+        (right, Side::Right, ["up-left", "left", "out-left"]),
+        (left, Side::Left, ["up-right", "right", "out-right"]),
+    ] {
+        let said = ["fingers", "palm", "direction"].map(|feature| {
+            let is = |note: &&Note| matches!(&note.about, About::Component(_, Some(it)) if it == feature);
+            let note = made.notes.iter().find(is).expect("a value");
+            (note.hand, note.value.clone())
+        });
+        let want = want.map(|value| (Some(hand), Reading::Value(value.to_owned())));
+        assert_eq!(said, want);
     }
 }
 
