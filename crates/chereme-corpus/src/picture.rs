@@ -275,10 +275,11 @@ impl Corpus {
             return self.draw(one, to, options, progress);
         }
         if !matches!(extension(to).as_str(), "gif" | "mp4") {
-            return Err(ending(
-                to,
-                "several movements are drawn next to each other to an .mp4 or a .gif",
-            ));
+            return Err(
+                Error::wrong("such a picture shows one movement, and several are named")
+                    .at(to.display().to_string())
+                    .advise("several movements are drawn next to each other to an .mp4 or a .gif"),
+            );
         }
         let mut all = Vec::with_capacity(addresses.len());
         for address in addresses {

@@ -490,6 +490,25 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_that_shows_one_movement_is_refused_for_several() {
+        use crate::{Address, Corpus, PictureOptions, Progress, unheard};
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+        let both: Vec<Address> = ["A", "B"].map(|it| it.parse().expect("a gloss")).into();
+        for name in ["pair.png", "pair.svg"] {
+            let (to, mut hear) = (folder.path().join(name), unheard);
+            let options = PictureOptions::default();
+            let error = corpus
+                .draw_together(&both, &to, &options, &mut Progress::new(&mut hear))
+                .expect_err("several");
+            assert_eq!(
+                error.to_string(),
+                "such a picture shows one movement, and several are named"
+            );
+        }
+    }
+
+    #[test]
     fn mouths_have_pictures_and_heads_have_none() {
         let find = |id| builtin_by_id(id).expect("of the house");
         let mouth = find("mouth");

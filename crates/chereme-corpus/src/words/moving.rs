@@ -393,6 +393,10 @@ pub(super) const MOVING: &[(&str, &str)] = &[
     ("it is too long", "il est trop long"),
     ("joint {name} has a gap", "l’articulation {name} a un trou"),
     (
+        "such a picture shows one movement, and several are named",
+        "une telle image montre un seul mouvement, et plusieurs sont nommés",
+    ),
+    (
         "several movements are drawn next to each other to an .mp4 or a .gif",
         "plusieurs mouvements se dessinent côte à côte dans un .mp4 ou un .gif",
     ),
