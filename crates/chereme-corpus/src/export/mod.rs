@@ -21,6 +21,7 @@ use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
 use chereme_formats::subtitles;
+use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -144,11 +145,19 @@ impl Corpus {
             (Some(extension), _) => {
                 let reading = rows::begin_reading(connection)?;
                 let inner = inner_extension(to);
+                let by_name = Format::of(extension).map(|format| format.within(&inner));
                 let format = match form {
+                    Some((format, named)) if by_name.is_some_and(|it| it != format) => {
+                        return Err(Error::wrong(format!(
+                            "the name ends in .{extension}, and the format is {named}"
+                        ))
+                        .at(to.display().to_string())
+                        .advise(Remedy::command(format!(
+                            "leave --format out, or end the name in .{named}"
+                        ))));
+                    }
                     Some((format, _)) => format,
-                    None => Format::of(extension)
-                        .map(|format| format.within(&inner))
-                        .ok_or_else(|| unknown(to, extension))?,
+                    None => by_name.ok_or_else(|| unknown(to, extension))?,
                 };
                 let file = whole(to, options.force, &mut |out| {
                     let notes = &mut report.notes;

@@ -490,6 +490,10 @@ fn several_recordings_go_into_one_folder_a_file_each() {
     let found = write(&ExportWhat::Tokens(vec![1, 2]), &tokens, false, "eaf").expect("written");
     assert!(!found.files.is_empty() && found.files.len() <= 2);
     assert!(write(&several, &place.path("x"), false, "glb").is_err());
+    for (name, fits) in [("a.eaf", true), ("a.srt", false), ("a.old", true)] {
+        let written = write(&address("recording:one"), &place.path(name), false, "eaf");
+        assert_eq!(written.is_ok(), fits, "{name}");
+    }
     let mut hear = unheard;
     let mut bytes = Vec::new();
     corpus

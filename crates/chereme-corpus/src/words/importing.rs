@@ -116,6 +116,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "only everything can be written as a folder of all formats",
         "seul l’ensemble s’écrit comme un dossier de tous les formats",
     ),
+    (
+        "the name ends in .{ending}, and the format is {format}",
+        "le nom finit en .{ending}, et le format est {format}",
+    ),
+    (
+        "leave --format out, or end the name in .{format}",
+        "omettez --format, ou donnez au nom la fin .{format}",
+    ),
     ("{format} is not written", "{format} ne s’écrit pas"),
     (
         "write .glb or .bvh, which Blender and others read",
