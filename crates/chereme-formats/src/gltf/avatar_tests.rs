@@ -200,6 +200,16 @@ fn an_avatar_stands_in_the_t_pose_however_its_body_rests() {
             let is = (at(to) - at(from)).normalize();
             assert!(is.distance(want) < 1e-6, "{rests}: {from} to {to} is {is}");
         }
+        // A neck may lean forward below a head that looks ahead.
+        if rests == "as a line" {
+            let mut leaning = figure().joints().to_vec();
+            leaning[4].offset = DVec3::new(0.0, 0.08, 0.06);
+            let clip = along_one_axis(&Skeleton::new(leaning).expect("a skeleton"));
+            let anatomy = chereme_motion::Anatomy::detect(clip.skeleton()).with_clip(&clip);
+            let head = clip.skeleton().find("Head").expect("a head");
+            let turned = vrma::t_pose(&clip, &anatomy).rotation(head);
+            assert!(turned.angle_between(DQuat::IDENTITY) < 1e-6, "{turned}");
+        }
         let forward = anatomy.body_frame(&rest).expect("a trunk").forward;
         assert!(
             forward.distance(DVec3::Z) < 1e-6,

@@ -338,7 +338,8 @@ pub fn t_pose(clip: &Clip, anatomy: &Anatomy) -> ModelPose {
         }
     };
     if !is_posed {
-        let spine = [Part::Hips, Part::Spine, Part::Chest, Part::Neck, Part::Head];
+        // The neck stays as it is, so that the head looks ahead as in the first frame.
+        let spine = [Part::Hips, Part::Spine, Part::Chest, Part::Neck];
         let mut spine: Vec<usize> = spine.into_iter().filter_map(joint).collect();
         spine.dedup();
         for pair in spine.windows(2).skip(1) {
