@@ -125,6 +125,13 @@ fn made(connection: &Connection, track: &MotionTrack, frames: Range<usize>) -> R
     Ok(all)
 }
 
+/// Reports whether non-manuals or a captured face accompany the movement of a stretch.
+pub(crate) fn has_some(connection: &Connection, stretch: &Stretch) -> Result<bool> {
+    let track = MotionTrack::of(connection, stretch.recording.id)?;
+    let first = 0..track.frames().min(1);
+    Ok(!of_track(connection, &track, first)?.is_empty())
+}
+
 /// Writes the curves of a stretch as a table: one row for each frame, with its time in seconds from the first one and a
 /// column for each curve.
 pub(crate) fn write_table(

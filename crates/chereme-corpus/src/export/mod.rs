@@ -1,5 +1,7 @@
 //! Exports the corpus to files in other formats; the extension of the file determines the format.
 
+#[cfg(test)]
+mod avatar_tests;
 mod bvh;
 mod csv;
 mod dictionary;
@@ -342,7 +344,8 @@ fn write_file(
         (Format::Curves(delimiter), _) => {
             let stretch = stretch(connection, what)?;
             let moves = recordings::body_track(connection, stretch.recording.id)?.is_some();
-            if !moves && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? {
+            let shows = moves && curves::has_some(connection, &stretch)?;
+            if !shows && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? {
                 return foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
             }
             curves::write_table(connection, &stretch, delimiter, out)

@@ -16,13 +16,13 @@ use crate::{
 
 const EAF: &str = include_str!("tests.eaf");
 
-struct Place {
+pub(super) struct Place {
     folder: tempfile::TempDir,
     corpora: usize,
 }
 
 impl Place {
-    fn new() -> Self {
+    pub(super) fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
         Self { folder, corpora: 0 }
     }
@@ -35,7 +35,7 @@ impl Place {
     }
 
     /// Returns a new corpus of these files.
-    fn corpus(&mut self, files: &[PathBuf]) -> Corpus {
+    pub(super) fn corpus(&mut self, files: &[PathBuf]) -> Corpus {
         self.corpora += 1;
         let path = self.folder.path().join(format!("{}.chereme", self.corpora));
         let mut corpus = Corpus::create(&path, "A").expect("made");
@@ -51,12 +51,12 @@ impl Place {
         corpus
     }
 
-    fn path(&self, name: &str) -> PathBuf {
+    pub(super) fn path(&self, name: &str) -> PathBuf {
         self.folder.path().join(name)
     }
 }
 
-fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> Result<ExportReport> {
+pub(super) fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> Result<ExportReport> {
     let mut hear = unheard;
     corpus.export(
         what,
@@ -66,7 +66,7 @@ fn export(corpus: &Corpus, what: &ExportWhat, to: &Path) -> Result<ExportReport>
     )
 }
 
-fn address(text: &str) -> ExportWhat {
+pub(super) fn address(text: &str) -> ExportWhat {
     ExportWhat::Address(text.parse().expect("an address"))
 }
 
@@ -595,67 +595,6 @@ fn movement_goes_through_glb_and_back_to_bvh_within_a_hundredth_of_a_millimetre(
         tried += 1;
     }
     assert!(tried > 0);
-}
-
-#[test]
-fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
-    let mut place = Place::new();
-    let face = |tier: &str, act: &str| {
-        format!(
-            "<sigml><hamgestural_sign gloss=\"X\"><sign_nonmanual><{tier}>{act}</{tier}></sign_nonmanual>\
-             <sign_manual><handconfig handshape=\"fist\" extfidir=\"uo\" palmor=\"l\"/>\
-             <directedmotion direction=\"o\"/></sign_manual></hamgestural_sign></sigml>"
-        )
-    };
-    for (at, (tier, act, shown, note)) in [
-        (
-            "facialexpr_tier",
-            "<eye_lids movement=\"CB\"/>",
-            "blink",
-            "",
-        ),
-        (
-            "eyegaze_tier",
-            "<eye_gaze direction=\"LE\"/>",
-            "gaze_left",
-            "",
-        ),
-        ("mouthing_tier", "<mouth_picture picture=\"a\"/>", "aa", ""),
-        (
-            "facialexpr_tier",
-            "<eye_brows movement=\"RB\"/>",
-            "brows.RB",
-            "by name: brows.RB",
-        ),
-    ]
-    .into_iter()
-    .enumerate()
-    {
-        let [sigml, to] = ["sigml", "vrma"].map(|it| place.path(&format!("{at}.{it}")));
-        std::fs::write(&sigml, face(tier, act)).expect("written");
-        let mut corpus = place.corpus(&[]);
-        let staging = crate::Staging {
-            language: Some("quiet"),
-            ..crate::Staging::default()
-        };
-        let sigml = sigml.display().to_string();
-        let made = corpus.animate(&[&sigml], &staging, Some("X"));
-        made.expect("a sign");
-        let report = export(&corpus, &address("X"), &to).expect("a VRMA");
-        assert_eq!(
-            report.notes.is_empty(),
-            note.is_empty(),
-            "{:?}",
-            report.notes
-        );
-        assert!(report.notes.concat().ends_with(note), "{:?}", report.notes);
-        let bytes = std::fs::read(&to).expect("read");
-        let (scene, _) = chereme_formats::gltf::read(&bytes, &|_| None).expect("a VRMA");
-        let curves = scene.morphs.expect("a face");
-        let curve = curves.curves().iter().find(|it| it.name == shown);
-        let values = curve.expect("the expression").values.values().flatten();
-        assert!(values.fold(0.0, f64::max) > 0.2, "{shown}");
-    }
 }
 
 #[test]
