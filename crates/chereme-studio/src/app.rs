@@ -317,6 +317,7 @@ impl Studio {
                     }
                     self.panes.hear(id, &ended);
                     self.overlays.export.hear(id, &ended);
+                    self.overlays.typed_path.hear(id, &ended);
                     if let Ok(Outcome::Imported(report)) = &ended
                         && !report.dry_run
                         && std::mem::take(&mut self.looking)
@@ -336,10 +337,7 @@ impl Studio {
         let now = ctx.input(|input| input.time);
         match self.chooser.ended(&self.wake, now) {
             Some(Chosen::Command(command)) => self.out.send(command),
-            Some(Chosen::NoChooser) => {
-                let words = crate::words::shell::NO_CHOOSER.of(self.settings.language);
-                self.overlays.notices.warn(words);
-            }
+            Some(Chosen::NoChooser(what)) => self.ask_path(what),
             Some(Chosen::Nothing) | None => {}
         }
     }

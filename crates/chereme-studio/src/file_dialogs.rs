@@ -9,7 +9,7 @@ use std::task::{Context, Poll, Wake as TaskWake};
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::command::Command;
-use crate::words::{Language, shell as words};
+use crate::words::{Language, Text, shell as words};
 use crate::work::begin::Begin;
 use crate::work::desk::Wake;
 
@@ -52,8 +52,8 @@ pub(crate) enum Chosen {
     Command(Command),
     /// The user closed the chooser.
     Nothing,
-    /// The chooser ended sooner than a person can close it: this system has none.
-    NoChooser,
+    /// The chooser ended sooner than a person can close it: this system has none, and the path is to be typed.
+    NoChooser(Choose),
 }
 
 /// Shortest time in which a person can close a chooser, in seconds.
@@ -90,7 +90,7 @@ impl Chooser {
         self.open = None;
         Some(match what.command(paths) {
             Some(command) => Chosen::Command(command),
-            None if quick => Chosen::NoChooser,
+            None if quick => Chosen::NoChooser(what),
             None => Chosen::Nothing,
         })
     }
@@ -105,7 +105,21 @@ impl TaskWake for Waking {
 }
 
 impl Choose {
-    fn command(self, mut paths: Vec<PathBuf>) -> Option<Command> {
+    /// Returns the title of the chooser.
+    pub(crate) fn title(self) -> Text {
+        match self {
+            Self::Corpus => words::START_OPEN,
+            Self::NewCorpus => words::START_NEW,
+            Self::Copy => words::SAVE_COPY,
+            Self::CorpusOfFolder | Self::Folder => words::START_IMPORT,
+            Self::Files => words::CHOOSE_FILES,
+            Self::Merge => words::CHOOSE_CORPUS,
+            Self::Media(..) => words::CHOOSE_MEDIA,
+        }
+    }
+
+    /// Returns the command that uses the chosen paths; `None` without a path.
+    pub(crate) fn command(self, mut paths: Vec<PathBuf>) -> Option<Command> {
         let first = match self {
             Self::Files | Self::Folder | Self::Merge if !paths.is_empty() => {
                 return Some(Command::Import(paths));
@@ -127,50 +141,31 @@ impl Choose {
 
 /// Shows the file chooser of the desktop.
 fn native(what: Choose, language: Language) -> Paths {
-    let dialog = AsyncFileDialog::new();
+    let dialog = AsyncFileDialog::new().set_title(what.title().of(language));
     let one = |file: Option<FileHandle>| file.map(|it| it.path().to_owned()).into_iter().collect();
     let corpora = [words::CORPORA.of(language), "chereme"];
     match what {
         Choose::Corpus | Choose::Merge => {
-            let title = if what == Choose::Merge {
-                words::CHOOSE_CORPUS
-            } else {
-                words::START_OPEN
-            };
-            let file = dialog
-                .set_title(title.of(language))
-                .add_filter(corpora[0], &corpora[1..])
-                .pick_file();
+            let file = dialog.add_filter(corpora[0], &corpora[1..]).pick_file();
             Box::pin(async move { one(file.await) })
         }
         Choose::NewCorpus | Choose::Copy => {
-            let title = if what == Choose::Copy {
-                words::SAVE_COPY
-            } else {
-                words::START_NEW
-            };
             let file = dialog
-                .set_title(title.of(language))
                 .add_filter(corpora[0], &corpora[1..])
                 .set_file_name("corpus.chereme")
                 .save_file();
             Box::pin(async move { one(file.await) })
         }
         Choose::CorpusOfFolder | Choose::Folder => {
-            let title = words::START_IMPORT.of(language);
-            let folder = dialog.set_title(title).pick_folder();
+            let folder = dialog.pick_folder();
             Box::pin(async move { one(folder.await) })
         }
         Choose::Media(..) => {
-            let file = dialog
-                .set_title(words::CHOOSE_MEDIA.of(language))
-                .pick_file();
+            let file = dialog.pick_file();
             Box::pin(async move { one(file.await) })
         }
         Choose::Files => {
-            let files = dialog
-                .set_title(words::CHOOSE_FILES.of(language))
-                .pick_files();
+            let files = dialog.pick_files();
             Box::pin(async move {
                 let files = files.await.unwrap_or_default();
                 files.iter().map(|it| it.path().to_owned()).collect()
@@ -214,7 +209,7 @@ mod tests {
         assert!(matches!(ended(none, Choose::Corpus, 3.0), Chosen::Nothing));
         assert!(matches!(
             ended(none, Choose::Corpus, 0.1),
-            Chosen::NoChooser
+            Chosen::NoChooser(Choose::Corpus)
         ));
     }
 }

@@ -8,6 +8,7 @@ pub(crate) mod remedy;
 pub(crate) mod settings;
 pub(crate) mod steps;
 pub(crate) mod trouble;
+pub(crate) mod typed_path;
 
 use eframe::egui::{Context, Key, Modifiers};
 
@@ -22,6 +23,7 @@ pub(crate) struct Overlays {
     pub(crate) settings: settings::SettingsWindow,
     pub(crate) steps: steps::FirstSteps,
     pub(crate) export: export::Export,
+    pub(crate) typed_path: typed_path::TypedPath,
 }
 
 impl Overlays {
@@ -60,6 +62,7 @@ impl Studio {
         overlays.settings.ui(ctx, settings, out);
         overlays.steps.ui(ctx, keys, little, settings.language);
         self.exporting(ctx);
+        self.typing_path(ctx);
     }
 }
 

@@ -30,7 +30,11 @@ texts! {
     START_TYPED_IMPORT: "Import", "Importer";
     CORPORA: "Corpora", "Corpus";
     CHOOSE_FILES: "Files to import", "Fichiers à importer";
-    NO_CHOOSER: "No file chooser came up on this system. Type the path, or drop the file on the window.", "Aucun sélecteur de fichiers ne s’est ouvert. Écrivez le chemin, ou déposez le fichier sur la fenêtre.";
+    NO_CHOOSER: "No file chooser came up on this system: type the path here.", "Aucun sélecteur de fichiers ne s’est ouvert : écrivez le chemin ici.";
+    PATH_SAVE: "Save", "Enregistrer";
+    PATH_CHOOSE: "Choose", "Choisir";
+    PATH_MISSING: "Nothing is there: {path}", "Il n’y a rien là : {path}";
+    PATH_TAKEN: "There is a file of that name already: {path}", "Un fichier de ce nom existe déjà : {path}";
     EMPTY_CORPUS: "This corpus is empty: import files here.", "Ce corpus est vide : importez des fichiers ici.";
     START_DROP: "Or drop a corpus, files or a folder on the window.", "Ou déposez un corpus, des fichiers ou un dossier sur la fenêtre.";
     START_GONE: "not there any more", "n’existe plus";
