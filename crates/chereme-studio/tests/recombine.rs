@@ -259,6 +259,16 @@ fn a_changed_recipe_replaces_its_sign_and_undo_restores_the_former_one() {
     key(&mut window, Modifiers::COMMAND, Key::Z);
     idle(&mut window);
     assert_eq!(length(&window), before);
+    // The pane never reports an undone replacement as stored; redo brings the report back.
+    until(&mut window, "the snapshot", |window| {
+        !has(window, "Show it")
+    });
+    key(&mut window, Modifiers::COMMAND, Key::Y);
+    idle(&mut window);
+    until(&mut window, "the new form", |window| has(window, "Show it"));
+    key(&mut window, Modifiers::COMMAND, Key::Z);
+    idle(&mut window);
+    assert_eq!(length(&window), before);
     // The next undo undoes the earlier change of the recipe.
     key(&mut window, Modifiers::COMMAND, Key::Z);
     assert_eq!(recipe_of_stored(&window), "ESCARGOT | configure right U");

@@ -58,8 +58,8 @@ pub(crate) struct Recombine {
     /// The name of the stored sign whose recipe was opened.
     opened: Option<String>,
     storing: Option<WorkId>,
-    /// The sign that was stored last: its gloss and recording.
-    stored: Option<(String, i64)>,
+    /// The sign that was stored last.
+    stored: Option<store::Stored>,
     /// Whether the stage shows the result instead of the recording.
     on_stage: bool,
     /// The movement that was last given to the stage.
@@ -568,7 +568,7 @@ impl Pane for Recombine {
         if self.storing.take_if(|storing| *storing == id).is_some()
             && let Ok(Outcome::Recombined(made)) = ended
         {
-            self.stored = made.recording.map(|it| (made.gloss.clone(), it));
+            self.stored = store::Stored::of(made);
         }
     }
 

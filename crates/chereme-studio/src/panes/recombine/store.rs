@@ -1,13 +1,41 @@
 //! The bar below the cards: the result, its gloss, and the button to store it.
 
+use chereme_corpus::Recombination;
 use eframe::egui::{Button, RichText, Ui};
 
 use super::Recombine;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
+use crate::model::Snapshot;
 use crate::panes::button_width;
 use crate::words::{fill, recombine as words};
 use crate::work::recombining;
+
+/// A sign that was stored.
+#[derive(Debug, Clone)]
+pub(super) struct Stored {
+    gloss: String,
+    recording: i64,
+    /// The recipe as the corpus spells it.
+    recipe: String,
+}
+
+impl Stored {
+    /// Returns the sign that a recombination stored; `None` if it stored nothing.
+    pub(super) fn of(made: &Recombination) -> Option<Self> {
+        made.recording.map(|recording| Self {
+            gloss: made.gloss.clone(),
+            recording,
+            recipe: made.recipe.clone(),
+        })
+    }
+
+    /// Returns whether the corpus has the sign, made from this recipe.
+    fn stands(&self, snapshot: &Snapshot) -> bool {
+        let glance = snapshot.recording(self.recording);
+        glance.is_some_and(|it| it.recipe.as_ref() == Some(&self.recipe))
+    }
+}
 
 impl Recombine {
     /// Shows the bar with the gloss and the button that stores the sign.
@@ -71,18 +99,17 @@ impl Recombine {
             }
         });
         self.storing_again(ui, seen, out, made);
+        // After an undo the stored sign does not exist any more, or has its former recipe again.
         let stored = self.stored.as_ref();
-        // After an undo the stored sign does not exist any more.
-        let stored = stored.filter(|it| seen.snapshot.recording(it.1).is_some());
-        if let Some((gloss, recording)) = stored {
+        if let Some(stored) = stored.filter(|it| it.stands(seen.snapshot)) {
             ui.horizontal_wrapped(|ui| {
                 let text = fill(
                     seen.say(crate::words::shell::NOTICE_STORED),
-                    &[("gloss", gloss)],
+                    &[("gloss", &stored.gloss)],
                 );
                 ui.label(RichText::new(text).color(seen.colours().good));
                 if ui.small_button(seen.say(words::SHOW_STORED)).clicked() {
-                    out.send(Command::Recording(*recording));
+                    out.send(Command::Recording(stored.recording));
                     out.send(Command::Look);
                 }
             });
