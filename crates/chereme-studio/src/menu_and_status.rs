@@ -62,6 +62,8 @@ impl Walk {
     }
 }
 
+/// The width of the bar that scrolls a menu, in points.
+const BAR: f32 = 10.0;
 /// The part of the window's height that a menu leaves free, in points.
 const MARGIN: f32 = 60.0;
 /// The width that the three layout buttons need beside the menus, in points.
@@ -96,30 +98,41 @@ impl Studio {
         self.walk.take_keys(ui);
         MenuBar::new().ui(ui, |ui| {
             self.walk.popups.clear();
-            for (at, (menu, title)) in Menu::ALL.into_iter().enumerate() {
-                self.walk.keep(ui);
-                let button = ui.menu_button(title.of(language), |ui| {
-                    let room = ui.ctx().content_rect().height() - MARGIN;
-                    ScrollArea::vertical()
-                        .max_height(room)
-                        .min_scrolled_height(room)
-                        .show(ui, |ui| {
-                            let first = self.walk.came == Some(at) && !self.walk.waits;
-                            if self.menu(ui, menu, first) {
-                                self.walk.came = None;
-                            }
-                            if menu == Menu::File {
-                                self.recent_menu(ui);
-                            }
-                        });
-                });
-                let popup = Popup::default_response_id(&button.response);
-                self.walk.popups.push(popup);
-            }
-            if self.snapshot.is_some() && ui.available_width() > LAYOUTS {
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| self.layouts(ui));
-            }
+            // In a narrow window the last names continue on a second line, where they stay in reach.
+            ui.horizontal_wrapped(|ui| {
+                for (at, (menu, title)) in Menu::ALL.into_iter().enumerate() {
+                    self.menu_name(ui, at, menu, title.of(language));
+                }
+                if self.snapshot.is_some() && ui.available_size_before_wrap().x > LAYOUTS {
+                    let one_line = Layout::right_to_left(Align::Center);
+                    ui.with_layout(one_line, |ui| self.layouts(ui));
+                }
+            });
         });
+    }
+
+    /// Shows the name of a menu in the bar, and below it the menu while it is open.
+    fn menu_name(&mut self, ui: &mut Ui, at: usize, menu: Menu, title: &str) {
+        self.walk.keep(ui);
+        let button = ui.menu_button(title, |ui| {
+            let room = ui.ctx().content_rect().height() - MARGIN;
+            // The bar that scrolls a long menu covers no keys.
+            ui.spacing_mut().scroll.floating_allocated_width = BAR;
+            ScrollArea::vertical()
+                .max_height(room)
+                .min_scrolled_height(room)
+                .show(ui, |ui| {
+                    let first = self.walk.came == Some(at) && !self.walk.waits;
+                    if self.menu(ui, menu, first) {
+                        self.walk.came = None;
+                    }
+                    if menu == Menu::File {
+                        self.recent_menu(ui);
+                    }
+                });
+        });
+        let popup = Popup::default_response_id(&button.response);
+        self.walk.popups.push(popup);
     }
 
     /// Shows the layouts to choose from, from right to left.

@@ -8,7 +8,7 @@ use chereme_studio::{Language, Options};
 use common::*;
 use eframe::egui::accesskit::Role;
 use eframe::egui::{Key, Modifiers, vec2};
-use egui_kittest::kittest::NodeT;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 /// The roles of widgets that a person can use.
 const USED: [Role; 14] = [
@@ -165,4 +165,84 @@ fn the_start_page_has_names_in_french() {
     window.run_steps(3);
     let (found, all) = nameless(&window);
     assert!(found.is_empty() && all > 8, "{all}: {found:#?}");
+}
+
+/// Returns the buttons and fields that the left or right edge of the window cuts.
+fn cut(window: &Window<'_>) -> BTreeSet<String> {
+    let whole = window.ctx.content_rect().x_range();
+    let all = window.root().children_recursive();
+    let cut = all.filter(|node| {
+        let role = node.accesskit_node().role();
+        if !matches!(role, Role::Button | Role::TextInput | Role::ComboBox) {
+            return false;
+        }
+        let rect = node.rect();
+        rect.left() < whole.min - 0.5 || rect.right() > whole.max + 0.5
+    });
+    cut.filter_map(|node| node.accesskit_node().label())
+        .collect()
+}
+
+#[test]
+fn menus_and_dialogues_are_in_reach_in_small_windows_in_either_language() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let corpus = small_corpus(folder.path());
+    let menus: [(Language, &[&str]); 2] = [
+        (
+            Language::English,
+            &["File", "Edit", "Stage", "View", "Panes", "Help"],
+        ),
+        (
+            Language::French,
+            &["Fichier", "Scène", "Affichage", "Panneaux", "Aide"],
+        ),
+    ];
+    for (language, menus) in menus {
+        let mut window = window(Options {
+            corpus: Some(corpus.clone()),
+            asked_language: Some(language),
+            ..options(folder.path())
+        });
+        until(&mut window, "the corpus", |it| {
+            it.state().generation().is_some()
+        });
+        // These are the sizes of usual screens at twice the scale.
+        for size in [vec2(640.0, 400.0), vec2(512.0, 384.0), vec2(1280.0, 800.0)] {
+            window.set_size(size);
+            window.run_steps(4);
+            let tops = menus.iter().map(|menu| {
+                let mut all = window.get_all_by_label(menu);
+                let rect = all.next().expect("a menu").rect();
+                assert!(
+                    rect.left() >= 0.0 && rect.right() <= size.x,
+                    "{menu} {rect}"
+                );
+                rect.top()
+            });
+            let lines: BTreeSet<i32> = tops.map(|top| top.round() as i32).collect();
+            assert!(lines.len() <= 2, "{lines:?}");
+            // The names of the layouts stand beside the menus, or are left out; the menu View has them too.
+            let layouts = ["Annotating", "Searching", "Annoter", "Rechercher"];
+            for layout in layouts.iter().flat_map(|it| window.query_all_by_label(it)) {
+                for menu in menus.iter().flat_map(|it| window.query_all_by_label(it)) {
+                    let both = layout.rect().intersects(menu.rect());
+                    assert!(!both, "{size}: {layout:?} covers {menu:?}");
+                }
+            }
+            let before = cut(&window);
+            for (modifiers, overlay) in [
+                (Modifiers::NONE, Key::F1),
+                (Modifiers::COMMAND, Key::Comma),
+                (Modifiers::COMMAND | Modifiers::SHIFT, Key::P),
+                (Modifiers::COMMAND | Modifiers::SHIFT, Key::E),
+            ] {
+                window.key_press_modifiers(modifiers, overlay);
+                window.run_steps(4);
+                let more: Vec<String> = cut(&window).difference(&before).cloned().collect();
+                assert!(more.is_empty(), "{size} {overlay:?}: {more:?}");
+                window.key_press(Key::Escape);
+                window.run_steps(3);
+            }
+        }
+    }
 }

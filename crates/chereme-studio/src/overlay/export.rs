@@ -16,6 +16,11 @@ use crate::settings::Settings;
 use crate::words::{Text, export as words, fill, shell, spoken};
 use crate::work::{Ended, Outcome, WorkId, exchange};
 
+/// The height of the window's title and edges, in points.
+const HEAD: f32 = 56.0;
+/// The width of the bar that scrolls, in points.
+const BAR: f32 = 10.0;
+
 /// The object of an export.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) enum What {
@@ -183,7 +188,12 @@ impl Export {
             .resizable(false);
         window.show(ctx, |ui| {
             ui.set_width(420.0_f32.min(ctx.content_rect().width() - 60.0));
-            self.form(ui, seen, (settings, corpus), out);
+            let high = (ctx.content_rect().height() - HEAD).max(120.0);
+            ScrollArea::vertical().max_height(high).show(ui, |ui| {
+                // The bar that scrolls covers no field.
+                ui.set_max_width(ui.available_width() - BAR);
+                self.form(ui, seen, (settings, corpus), out);
+            });
         });
         self.open = open && !(self.asked.is_none() && super::escaped(ctx));
     }
@@ -360,6 +370,10 @@ fn what_text(seen: &PaneInput<'_>, what: &What) -> String {
         What::Token(_, gloss) => fill(seen.say(words::TOKEN), &[("name", gloss)]),
         What::Tier(_, name) => fill(seen.say(words::TIER), &[("name", name)]),
         What::Recording(_, name) => fill(seen.say(words::RECORDING), &[("name", name)]),
+        // An empty query finds all tokens.
+        What::Found(query, n) if query.trim().is_empty() => {
+            fill(seen.say(words::FOUND_ALL), &[("n", n)])
+        }
         What::Found(query, n) => {
             let values: [(&str, &dyn std::fmt::Display); 2] = [("n", n), ("query", query)];
             fill(seen.say(words::FOUND), &values)

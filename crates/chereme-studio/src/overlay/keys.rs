@@ -2,8 +2,8 @@
 
 use chereme_sign::text::fold;
 use eframe::egui::{
-    Align2, Button, ComboBox, Context, Event, Grid, Id, Key, Label, Role, ScrollArea, Ui,
-    WidgetInfo, Window, vec2,
+    Button, ComboBox, Context, Event, Grid, Id, Key, Label, Rect, Response, Role, ScrollArea, Ui,
+    Vec2, WidgetInfo, Window, vec2,
 };
 
 use crate::action::{ACTIONS, Action, ActionRow, Menu};
@@ -15,6 +15,11 @@ use crate::keys::{Keymap, Keys};
 use crate::script::edit;
 use crate::settings::Settings;
 use crate::words::{Language, Text, fill, gestures, shell as words};
+
+/// The room that the window leaves free around it with its edges and title, in points.
+const MARGINS: Vec2 = vec2(40.0, 80.0);
+/// The least width of each of its columns, in points.
+const COLUMN: f32 = 120.0;
 
 /// The window that shows and changes keys.
 #[derive(Debug, Default)]
@@ -45,13 +50,14 @@ impl KeysHelp {
         self.listen(ctx, settings, out);
         let mut open = true;
         let language = settings.language;
+        // The window begins at a corner: with its centre as its place, it would grow over both edges of a small window.
+        let whole = ctx.content_rect();
+        let size = vec2(560.0, 480.0).min(whole.size() - MARGINS);
         Window::new(words::KEYS_TITLE.of(language))
             .id(Id::unique("keys"))
             .open(&mut open)
-            .pivot(Align2::CENTER_CENTER)
-            .default_pos(ctx.content_rect().center())
-            .default_size(vec2(560.0, 480.0).min(0.8 * ctx.content_rect().size()))
-            .constrain_to(ctx.content_rect())
+            .default_rect(Rect::from_center_size(whole.center(), size))
+            .constrain_to(whole)
             .show(ctx, |ui| {
                 keymaps(ui, settings, out);
                 self.filter(ui, language);
@@ -108,14 +114,15 @@ impl KeysHelp {
         settings: &Settings,
     ) {
         let language = settings.language;
+        let wide = half(ui);
         Grid::new(("keys", menu))
             .num_columns(2)
             .striped(true)
-            .min_col_width(half(ui))
+            .min_col_width(wide)
             .show(ui, |ui| {
                 for row in rows {
                     let name = row.name.of(language);
-                    ui.label(name);
+                    within(ui, wide, |ui| ui.add(Label::new(name).wrap()));
                     let text = match keys.text(row.action) {
                         _ if self.listening == Some(row.action) => {
                             words::KEY_PRESS.of(language).to_owned()
@@ -123,7 +130,7 @@ impl KeysHelp {
                         text if text.is_empty() => words::KEY_NONE.of(language).to_owned(),
                         text => text,
                     };
-                    let response = ui.add(Button::new(text));
+                    let response = within(ui, wide, |ui| ui.add(Button::new(text).wrap()));
                     let label = fill(words::KEY_CHANGE.of(language), &[("action", &name)]);
                     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, &label));
                     if response.clicked() {
@@ -178,7 +185,16 @@ fn order() -> Vec<(Menu, Text)> {
 
 /// Returns the width of each of two columns that fill the window together, in points.
 fn half(ui: &Ui) -> f32 {
-    ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).max(200.0)
+    ((ui.available_width() - ui.spacing().item_spacing.x) / 2.0).max(COLUMN)
+}
+
+/// Shows a widget in a column of that width, in points.
+fn within(ui: &mut Ui, wide: f32, show: impl FnOnce(&mut Ui) -> Response) -> Response {
+    let shown = ui.scope(|ui| {
+        ui.set_max_width(wide);
+        show(ui)
+    });
+    shown.inner
 }
 
 fn rows_of(menu: Menu) -> impl Iterator<Item = &'static ActionRow> {
@@ -196,14 +212,11 @@ fn mouse(ui: &mut Ui, menu: Menu, language: Language) {
     Grid::new(("gestures", menu))
         .num_columns(2)
         .striped(true)
-        .min_col_width(half(ui))
+        .min_col_width(wide)
         .show(ui, |ui| {
             for row in GESTURES.iter().filter(|row| row.menu == menu) {
                 for text in [row.does.of(language), &row.text(language)] {
-                    ui.scope(|ui| {
-                        ui.set_max_width(wide);
-                        ui.add(Label::new(text).wrap());
-                    });
+                    within(ui, wide, |ui| ui.add(Label::new(text).wrap()));
                 }
                 ui.end_row();
             }

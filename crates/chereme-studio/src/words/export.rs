@@ -13,9 +13,10 @@ texts! {
     TOKEN: "The selected token {name}", "L’occurrence sélectionnée {name}";
     TIER: "The tier {name}", "L’acteur {name}";
     RECORDING: "The recording {name}", "L’enregistrement {name}";
+    FOUND_ALL: "The {n} tokens found", "Les {n} occurrences trouvées";
     FOUND: "The {n} tokens found: {query}", "Les {n} occurrences trouvées : {query}";
     ALL_OF_IT: "The whole corpus", "Tout le corpus";
-    FOLDER: "open files in a folder", "fichiers ouverts dans un dossier";
+    FOLDER: "folder of files in open formats", "dossier de fichiers aux formats ouverts";
     CSV: "table (.csv)", "tableau (.csv)";
     TSV: "table (.tsv)", "tableau (.tsv)";
     BVH: "movement (.bvh)", "mouvement (.bvh)";
