@@ -47,6 +47,31 @@ fn no_original(seen: &PaneInput<'_>, made_by: &str) -> String {
     fill(seen.say(words::NO_ORIGINAL), &[("made", &short)])
 }
 
+/// Returns the width of a text with its background, in points.
+fn chip_width(ui: &Ui, text: &str) -> f32 {
+    let font = TextStyle::Small.resolve(ui.style());
+    let colour = ui.visuals().text_color();
+    let galley = ui.painter().layout_no_wrap(text.to_owned(), font, colour);
+    galley.size().x + 12.0
+}
+
+/// Half of the width that the face may need, as a share of the picture's height.
+const HALF_FACE: f32 = 0.12;
+/// The height of a note with its margin, in points.
+const NOTE: f32 = 26.0;
+
+/// Returns the place of a note in a picture that leaves the signer's face and the name of the view free, and the side
+/// of the note that is there: the upper right corner if the note fits beside the face, else below, over the other notes.
+fn beside_face(picture: Rect, width: f32) -> (egui::Pos2, Align2) {
+    let room = picture.width() / 2.0 - picture.height() * HALF_FACE - 8.0;
+    if width <= room {
+        let corner = picture.right_top() + vec2(-8.0, 8.0);
+        return (corner, Align2::RIGHT_TOP);
+    }
+    let foot = picture.center_bottom() - vec2(0.0, 8.0 + NOTE);
+    (foot, Align2::CENTER_BOTTOM)
+}
+
 pub(super) fn chip(ui: &Ui, at: egui::Pos2, anchor: Align2, text: &str) {
     chip_on(ui.painter(), ui, at, anchor, text);
 }
@@ -69,9 +94,13 @@ pub(super) fn chip_on(
 }
 
 /// Shows notes about the whole stage, for example that a moment is being loaded, or that the hands have no fingers.
-pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, whole: Rect) {
+pub(super) fn notes(
+    stage: &Stage,
+    ui: &Ui,
+    seen: &PaneInput<'_>,
+    (whole, parts): (Rect, &[StagePart]),
+) {
     let at = whole.center_bottom() - vec2(0.0, 8.0);
-    let whole_top = whole.center_top() + vec2(0.0, 8.0);
     let without_fingers = stage
         .signer
         .as_ref()
@@ -92,7 +121,12 @@ pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, whole: Rect) {
         } else {
             fill(seen.say(words::PREVIEW), &[("time", &time)])
         };
-        chip(ui, whole_top, Align2::CENTER_TOP, &seen.keys.named(&text));
+        let text = seen.keys.named(&text);
+        // The picture in the upper right corner.
+        let corner = |it: &&StagePart| (it.rect.right() - it.rect.top()) as i32;
+        let picture = parts.iter().max_by_key(corner).map_or(whole, |it| it.rect);
+        let (place, anchor) = beside_face(picture, chip_width(ui, &text));
+        chip(ui, place, anchor, &text);
     }
     if stage.coming {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::COMING));
@@ -102,5 +136,31 @@ pub(super) fn notes(stage: &Stage, ui: &Ui, seen: &PaneInput<'_>, whole: Rect) {
         chip(ui, at, Align2::CENTER_BOTTOM, seen.say(words::NO_FINGERS));
     } else if let Some(made_by) = stage.original.made_by() {
         chip(ui, at, Align2::CENTER_BOTTOM, &no_original(seen, made_by));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eframe::egui::pos2;
+
+    #[test]
+    fn a_note_covers_no_face_in_stages_of_any_shape() {
+        for (wide, high) in [
+            (640.0, 290.0),
+            (640.0, 110.0),
+            (300.0, 400.0),
+            (260.0, 120.0),
+        ] {
+            let whole = Rect::from_min_size(pos2(10.0, 20.0), vec2(wide, high));
+            for width in [90.0, 250.0] {
+                let (place, anchor) = beside_face(whole, width);
+                let note = anchor.anchor_size(place, vec2(width, 20.0));
+                let centre = whole.center_top() + vec2(0.0, high * 0.25);
+                let face = Rect::from_center_size(centre, vec2(high * 0.2, high * 0.4));
+                assert!(!note.intersects(face), "{wide} x {high}: {note}");
+                assert!(whole.y_range().contains(note.top()) && note.bottom() < whole.bottom());
+            }
+        }
     }
 }

@@ -207,7 +207,7 @@ fn panes(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox,
                 .rect_stroke(part.rect, 2.0, stroke, StrokeKind::Inside);
         }
     }
-    notes(stage, ui, seen, whole);
+    notes(stage, ui, seen, (whole, &parts));
 }
 
 fn eye_name(stage: &Stage, seen: &PaneInput<'_>, part: &StagePart) -> &'static str {
