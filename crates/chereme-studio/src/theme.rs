@@ -28,6 +28,8 @@ pub(crate) struct Colours {
     /// Selected annotations, whatever their tier, and the text on them.
     pub(crate) chosen: Color32,
     pub(crate) on_chosen: Color32,
+    /// The edge of a field for text.
+    pub(crate) field_edge: Color32,
     /// Lines between tiers, and the background of every other tier.
     pub(crate) rule: Color32,
     pub(crate) stripe: Color32,
@@ -48,6 +50,7 @@ const LIGHT: Colours = Colours {
     on_annotation: Color32::from_rgb(0x16, 0x1B, 0x22),
     chosen: Color32::from_rgb(0x7A, 0x2A, 0x04),
     on_chosen: Color32::WHITE,
+    field_edge: Color32::from_rgb(0x85, 0x8F, 0x9D),
     rule: Color32::from_rgb(0xD3, 0xD8, 0xE0),
     stripe: Color32::from_rgb(0xEE, 0xF1, 0xF4),
     trouble: Color32::from_rgb(0xA8, 0x32, 0x00),
@@ -66,6 +69,7 @@ const DARK: Colours = Colours {
     on_annotation: Color32::from_rgb(0x0C, 0x0F, 0x14),
     chosen: Color32::from_rgb(0xFF, 0xF1, 0xE2),
     on_chosen: Color32::from_rgb(0x0C, 0x0F, 0x14),
+    field_edge: Color32::from_rgb(0x63, 0x6D, 0x7C),
     rule: Color32::from_rgb(0x33, 0x3A, 0x46),
     stripe: Color32::from_rgb(0x20, 0x25, 0x2D),
     trouble: Color32::from_rgb(0xFF, 0x9A, 0x70),
@@ -240,6 +244,21 @@ mod tests {
                 assert!(apart >= 1.8, "{dark} {role:?}: {apart}");
             }
             assert!(contrast(colours.chosen, colours.on_chosen) >= 4.5);
+        }
+    }
+
+    #[test]
+    fn fields_for_text_have_a_visible_edge() {
+        for dark in [false, true] {
+            let ctx = Context::default();
+            install(&ctx);
+            let theme = if dark { Theme::Dark } else { Theme::Light };
+            let visuals = ctx.style_of(theme).visuals.clone();
+            let edge = Colours::of(dark).field_edge;
+            for ground in [visuals.panel_fill, visuals.text_edit_bg_color()] {
+                let apart = contrast(edge, ground);
+                assert!(apart >= 3.0, "{dark} {ground:?}: {apart}");
+            }
         }
     }
 

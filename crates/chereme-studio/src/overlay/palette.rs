@@ -9,6 +9,7 @@ use crate::action::{ACTIONS, ActionRow, Context as Where};
 use crate::command::Command;
 use crate::context::Outbox;
 use crate::keys::Keys;
+use crate::script::edit;
 use crate::words::{Language, shell as words};
 
 /// The palette.
@@ -84,7 +85,7 @@ impl Palette {
             let field = TextEdit::singleline(&mut self.text)
                 .hint_text(words::PALETTE_HINT.of(language))
                 .desired_width(f32::INFINITY);
-            let response = ui.add(field);
+            let response = edit::edged(ui, |ui| ui.add(field));
             response.widget_info(|| {
                 let role = eframe::egui::Role::TextInput;
                 eframe::egui::WidgetInfo::labeled(role, true, words::PALETTE_HINT.of(language))

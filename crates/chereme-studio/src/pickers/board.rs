@@ -8,6 +8,7 @@ use eframe::egui::{
 
 use super::hamnosys::{drawings, explain, paint, short};
 use crate::context::PaneInput;
+use crate::script::edit;
 use crate::words::{Language, hamnosys as words};
 
 /// The side of a symbol's cell, and the height of the symbol in it, in points.
@@ -40,7 +41,7 @@ fn board(ui: &mut Ui, seen: &PaneInput<'_>, id: Id, fresh: bool, text: &mut Stri
             .id(id.with("field"))
             .hint_text(hint)
             .desired_width(width);
-        let field = ui.add(field);
+        let field = edit::edged(ui, |ui| ui.add(field));
         field.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, hint));
         if fresh {
             field.request_focus();

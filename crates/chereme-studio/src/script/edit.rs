@@ -8,9 +8,12 @@ use chereme_figure::letters::any_from_right;
 use eframe::egui::epaint::text::{PlacedRow, Row};
 use eframe::egui::text::{CCursor, CCursorRange, CharIndex, LayoutJob};
 use eframe::egui::text_edit::TextEditOutput;
-use eframe::egui::{Color32, FontId, Galley, Pos2, TextBuffer, TextEdit, TextStyle, Ui, pos2};
+use eframe::egui::{
+    Color32, FontId, Galley, Pos2, Stroke, TextBuffer, TextEdit, TextStyle, Ui, pos2,
+};
 
 use super::visual::{self, Piece};
+use crate::theme::{self, Colours};
 
 /// A row height that marks a layout whose letters are in visual order already; it has no effect of its own.
 const IN_ORDER: f32 = f32::MIN_POSITIVE;
@@ -31,7 +34,8 @@ pub(crate) fn line(
         let job = LayoutJob::simple_singleline(text.as_str().to_owned(), font, colour);
         lay_out(ui, job)
     };
-    let mut edit = more(TextEdit::singleline(text).layouter(&mut layouter)).show(ui);
+    let field = more(TextEdit::singleline(text).layouter(&mut layouter));
+    let mut edit = edged(ui, |ui| field.show(ui));
     settle(ui, &mut edit);
     edit
 }
@@ -47,9 +51,20 @@ pub(crate) fn block(
         let job = LayoutJob::simple(text.as_str().to_owned(), font, colour, wrap);
         lay_out(ui, job)
     };
-    let mut edit = more(TextEdit::multiline(text).layouter(&mut layouter)).show(ui);
+    let field = more(TextEdit::multiline(text).layouter(&mut layouter));
+    let mut edit = edged(ui, |ui| field.show(ui));
     settle(ui, &mut edit);
     edit
+}
+
+/// Draws fields for text with an edge, without which they are hardly visible in light panes.
+pub(crate) fn edged<R>(ui: &mut Ui, show: impl FnOnce(&mut Ui) -> R) -> R {
+    let edge = Colours::of(theme::is_dark(ui.ctx())).field_edge;
+    let before = ui.visuals().widgets.inactive.bg_stroke;
+    ui.visuals_mut().widgets.inactive.bg_stroke = Stroke::new(1.0, edge);
+    let shown = show(ui);
+    ui.visuals_mut().widgets.inactive.bg_stroke = before;
+    shown
 }
 
 fn usual(ui: &Ui) -> (FontId, Color32) {

@@ -78,13 +78,13 @@ impl Field {
         };
         let before = self.text.clone();
         let label = seen.say(words::QUERY);
-        let mut output = TextEdit::singleline(&mut self.text)
+        let field = TextEdit::singleline(&mut self.text)
             .id(id)
             .hint_text(seen.say(words::HINT))
             .layouter(&mut layouter)
             .lock_focus(offers.is_some())
-            .desired_width(f32::INFINITY)
-            .show(ui);
+            .desired_width(f32::INFINITY);
+        let mut output = edit::edged(ui, |ui| field.show(ui));
         edit::settle(ui, &mut output);
         let response: Response = output.response.response;
         let text = self.text.clone();

@@ -12,6 +12,7 @@ use super::data::time_text;
 use super::edit::Scene;
 use crate::command::Command;
 use crate::context::Outbox;
+use crate::script::edit;
 use crate::words::{fill, shell, timeline as words};
 
 /// The field while it is open.
@@ -87,7 +88,7 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
                 .id(Id::unique("timeline go field"))
                 .hint_text(say(words::GO_FIELD))
                 .desired_width(f32::INFINITY);
-            let response = ui.add(field);
+            let response = edit::edged(ui, |ui| ui.add(field));
             let label = say(words::GO_FIELD);
             response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, label));
             response.request_focus();
