@@ -34,6 +34,12 @@ fn a_text_is_cued_corrected_shown_and_stored() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = open_small(folder.path());
     open_pane(&mut window);
+    for name in ["Code", "Timing of the hand"] {
+        let label = window.get_by_label(name).rect();
+        let list = window.get_by_label_contains(&format!("{name}: ")).rect();
+        let row = (label.center().y - list.center().y).abs();
+        assert!(row < 6.0, "{name} stands before its list: {label} {list}");
+    }
     type_into(&mut window, "Text to cue", "la maison");
     until(&mut window, "the keys", |window| {
         has(window, "side 6 for l a")
@@ -56,6 +62,15 @@ fn a_text_is_cued_corrected_shown_and_stored() {
         shows(window, "Stored as MAISON")
     });
     idle(&mut window);
+    // The pane never reports an undone sign as stored.
+    press(&mut window, "Edit");
+    window.run_steps(2);
+    window.get_by_label_contains("Undo").click_accesskit();
+    window.run_steps(2);
+    idle(&mut window);
+    until(&mut window, "the snapshot without the sign", |window| {
+        !shows(window, "Stored as MAISON")
+    });
     press(&mut window, "Change the pronunciation of la: l a");
     until(&mut window, "the phones of a word", |window| {
         has(window, "Phones of la")

@@ -227,4 +227,8 @@ fn a_corpus_without_functions_says_what_to_annotate() {
         contains(it, "No tier names the function")
     });
     assert!(has(&window, "Propose brows, lids, gaze, mouth and head"));
+    assert!(
+        !contains(&window, "Sentence: "),
+        "no empty list to choose from"
+    );
 }

@@ -1,7 +1,56 @@
 //! Keyboard use of drop-down lists, open or closed: arrows go through the list, and a letter goes to the next
 //! entry that begins with it.
 
-use eframe::egui::{Event, EventFilter, InnerResponse, Key, Modifiers, Ui};
+use eframe::egui::{
+    ComboBox, Event, EventFilter, InnerResponse, Key, Modifiers, Role, TextStyle, Ui, WidgetInfo,
+};
+
+/// Shows a drop-down list with its name before it.
+pub(super) fn named<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    name: &str,
+    value: &mut T,
+    all: &[(T, String)],
+) {
+    let shown = all.iter().find(|(it, _)| it == value);
+    let shown = shown.map_or("", |(_, text)| text.as_str()).to_owned();
+    // A list does not break: one that has no room left begins the next row, and is shortened in a narrow pane.
+    let wide = |text: &str| {
+        let font = TextStyle::Button.resolve(ui.style());
+        let colour = ui.visuals().text_color();
+        ui.painter()
+            .layout_no_wrap(text.to_owned(), font, colour)
+            .size()
+            .x
+    };
+    let spacing = ui.spacing();
+    let around = 2.0 * spacing.button_padding.x + spacing.icon_width + 2.0 * spacing.item_spacing.x;
+    let (title, row) = (wide(name) + spacing.item_spacing.x, ui.max_rect().width());
+    let list = (wide(&shown) + around).min(row - title).max(60.0);
+    if ui.available_size_before_wrap().x < title + list {
+        ui.end_row();
+    }
+    ui.horizontal(|ui| {
+        ui.weak(name);
+        let combo = ComboBox::from_id_salt(name)
+            .selected_text(&shown)
+            .truncate()
+            .width(list);
+        let inner = combo.show_ui(ui, |ui| {
+            for (it, text) in all {
+                ui.selectable_value(value, it.clone(), text);
+            }
+        });
+        let names: Vec<&str> = all.iter().map(|(_, text)| text.as_str()).collect();
+        let now = all.iter().position(|(it, _)| it == value);
+        if let Some(at) = step(ui, &inner, &names, now) {
+            *value = all[at].0.clone();
+        }
+        inner
+            .response
+            .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {shown}")));
+    });
+}
 
 /// Returns the index in `names` that a key chose, if the list has the focus.
 pub(crate) fn step<R>(

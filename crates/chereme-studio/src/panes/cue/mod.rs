@@ -9,11 +9,10 @@ use chereme_corpus::{CueSlips, Recombination, cue_recipe};
 use chereme_motion::Instant;
 use chereme_sign::cue::codes;
 use eframe::egui::{
-    Button, CollapsingHeader, ComboBox, DragValue, Response, RichText, Role, ScrollArea, Ui,
-    WidgetInfo,
+    Button, CollapsingHeader, DragValue, Response, RichText, Role, ScrollArea, Ui, WidgetInfo,
 };
 
-use super::Pane;
+use super::{Pane, combo};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -101,35 +100,25 @@ impl CuePane {
 
     fn settings(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
         ui.horizontal_wrapped(|ui| {
-            let label = ui.label(seen.say(words::CODE));
             let french = seen.language == crate::words::Language::French;
             let name = |at: usize| {
                 let names = codes().get(at).map(|code| &code.names);
                 let own = names.and_then(|names| names.get(if french { "fr" } else { "en" }));
                 own.cloned().unwrap_or_default()
             };
-            let list = ComboBox::from_id_salt("cue-code").selected_text(name(self.choices.code));
-            let list = list.show_ui(ui, |ui| {
-                for at in 0..codes().len() {
-                    ui.selectable_value(&mut self.choices.code, at, name(at));
-                }
+            let all: Vec<(usize, String)> = (0..codes().len()).map(|at| (at, name(at))).collect();
+            combo::named(ui, seen.say(words::CODE), &mut self.choices.code, &all);
+            let rules = PhaseRule::ALL.map(|rule| {
+                let name = match rule {
+                    PhaseRule::Paper => seen.say(words::BY_PAPER),
+                    PhaseRule::Attina => "Attina",
+                    PhaseRule::Sppas => "SPPAS",
+                    PhaseRule::Duchnowski => "Duchnowski",
+                    PhaseRule::Measured => seen.say(words::BY_MEASURED),
+                };
+                (rule, name.to_owned())
             });
-            list.response.labelled_by(label.id);
-            let label = ui.label(seen.say(words::RULE));
-            let name = |rule: PhaseRule| match rule {
-                PhaseRule::Paper => seen.say(words::BY_PAPER),
-                PhaseRule::Attina => "Attina",
-                PhaseRule::Sppas => "SPPAS",
-                PhaseRule::Duchnowski => "Duchnowski",
-                PhaseRule::Measured => seen.say(words::BY_MEASURED),
-            };
-            let list = ComboBox::from_id_salt("cue-rule").selected_text(name(self.choices.rule));
-            let list = list.show_ui(ui, |ui| {
-                for rule in PhaseRule::ALL {
-                    ui.selectable_value(&mut self.choices.rule, rule, name(rule));
-                }
-            });
-            list.response.labelled_by(label.id);
+            combo::named(ui, seen.say(words::RULE), &mut self.choices.rule, &rules);
             let label = ui.label(seen.say(words::PACE));
             let field = DragValue::new(&mut self.choices.pace)
                 .range(0.5..=4.0)
@@ -328,7 +317,10 @@ impl CuePane {
                 self.storing = Some(out.work(recombining::store(self.of.clone(), gloss)));
             }
         });
-        if let Some(name) = &self.stored {
+        // After an undo the stored sign does not exist any more.
+        let stored = self.stored.as_ref();
+        let stored = stored.filter(|name| seen.snapshot.recording_named(name).is_some());
+        if let Some(name) = stored {
             let key = seen.keys.text(Action::Export);
             let values: [(&str, &dyn std::fmt::Display); 2] = [("name", name), ("key", &key)];
             ui.weak(fill(seen.say(words::STORED), &values));

@@ -11,10 +11,10 @@ use chereme_corpus::{
     Address, Choice, DetectOptions, Detector, Expressions, FoundExpression, Function, Name,
     Nonmanuals, Onsets, ProposeScope, Rank, Ranked,
 };
-use eframe::egui::{Button, ComboBox, Role, ScrollArea, TextStyle, Ui, WidgetInfo};
+use eframe::egui::{Button, ScrollArea, Ui};
 
 use self::data::Compared;
-use super::Pane;
+use super::{Pane, combo};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
@@ -149,12 +149,12 @@ impl Faces {
                 .into_iter()
                 .map(|it| (Some(it.clone()), it.to_string()))
                 .collect();
-            pick(ui, seen.say(words::FUNCTION), &mut self.function, &names);
+            combo::named(ui, seen.say(words::FUNCTION), &mut self.function, &names);
             let sentences: Vec<(Option<String>, String)> = self
                 .sentences()
                 .map(|it| (Some(it.address.clone()), data::named(it)))
                 .collect();
-            pick(
+            combo::named(
                 ui,
                 seen.say(words::SENTENCE),
                 &mut self.sentence,
@@ -166,9 +166,9 @@ impl Faces {
                 (Rank::Medoid, words::MEDOID),
             ]
             .map(|(it, text)| (it, seen.say(text).to_owned()));
-            pick(ui, seen.say(words::FIRST), &mut self.rank, &ranks);
+            combo::named(ui, seen.say(words::FIRST), &mut self.rank, &ranks);
             let compared = Compared::ALL.map(|it| (it, seen.say(name(it)).to_owned()));
-            pick(ui, seen.say(words::COMPARED), &mut self.compared, &compared);
+            combo::named(ui, seen.say(words::COMPARED), &mut self.compared, &compared);
             for (on, text, tip) in [
                 (&mut self.lengths, words::LENGTHS, words::LENGTHS_TIP),
                 (&mut self.in_step, words::IN_STEP, words::IN_STEP_TIP),
@@ -282,53 +282,15 @@ fn name(compared: Compared) -> Text {
     }
 }
 
-/// Shows a drop-down list with its name before it.
-fn pick<T: PartialEq + Clone>(ui: &mut Ui, name: &str, value: &mut T, all: &[(T, String)]) {
-    let shown = all.iter().find(|(it, _)| it == value);
-    let shown = shown.map_or("", |(_, text)| text.as_str()).to_owned();
-    // A list does not break: one that has no room left begins the next row, and is shortened in a narrow pane.
-    let wide = |text: &str| {
-        let font = TextStyle::Button.resolve(ui.style());
-        let colour = ui.visuals().text_color();
-        ui.painter()
-            .layout_no_wrap(text.to_owned(), font, colour)
-            .size()
-            .x
-    };
-    let spacing = ui.spacing();
-    let around = 2.0 * spacing.button_padding.x + spacing.icon_width + 2.0 * spacing.item_spacing.x;
-    let (title, row) = (wide(name) + spacing.item_spacing.x, ui.max_rect().width());
-    let list = (wide(&shown) + around).min(row - title).max(60.0);
-    if ui.available_size_before_wrap().x < title + list {
-        ui.end_row();
-    }
-    ui.horizontal(|ui| {
-        ui.weak(name);
-        let combo = ComboBox::from_id_salt(name)
-            .selected_text(&shown)
-            .truncate()
-            .width(list);
-        let inner = combo.show_ui(ui, |ui| {
-            for (it, text) in all {
-                ui.selectable_value(value, it.clone(), text);
-            }
-        });
-        let names: Vec<&str> = all.iter().map(|(_, text)| text.as_str()).collect();
-        let now = all.iter().position(|(it, _)| it == value);
-        if let Some(at) = super::combo::step(ui, &inner, &names, now) {
-            *value = all[at].0.clone();
-        }
-        inner
-            .response
-            .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, format!("{name}: {shown}")));
-    });
-}
-
 impl Pane for Faces {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.settle(seen);
         self.follow(seen, out);
-        self.tools(ui, seen);
+        // Without an expression there is nothing to choose from.
+        let nothing = |it: &Arc<Expressions>| it.expressions.is_empty();
+        if !self.found.as_ref().is_some_and(nothing) {
+            self.tools(ui, seen);
+        }
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             if let Some(found) = &self.found
                 && found.expressions.is_empty()
