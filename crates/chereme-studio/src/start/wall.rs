@@ -92,13 +92,21 @@ pub(super) fn show(
     let first = Align2::CENTER_CENTER.align_size_within_rect(size, room).min;
     let mut chosen = None;
     for (at, made) in signs.iter().take(columns * rows).enumerate() {
-        let place = vec2((at % columns) as f32, (at / columns) as f32);
+        let place = place(at, columns, signs.len());
         let rect = Rect::from_min_size(first + place * step, Vec2::splat(side));
         if cell(ui, little, language, (at, made), rect).clicked() {
             chosen = Some(made.name.clone());
         }
     }
     chosen
+}
+
+/// Returns column and row of a picture; an incomplete last row stands in the middle.
+fn place(at: usize, columns: usize, count: usize) -> Vec2 {
+    let row = at / columns;
+    let in_row = columns.min(count - row * columns);
+    let indent = (columns - in_row) as f32 / 2.0;
+    vec2((at % columns) as f32 + indent, row as f32)
 }
 
 fn cell(
@@ -149,6 +157,12 @@ mod tests {
             assert!(columns as f32 * (side + GAP) - GAP <= room.x + 0.1);
             assert!(rows as f32 * (side + FOOT + GAP) - GAP <= room.y + 0.1);
         }
+        assert_eq!(place(7, 4, 10), vec2(3.0, 1.0));
+        assert_eq!(
+            place(8, 4, 10),
+            vec2(1.0, 2.0),
+            "two are centred below four"
+        );
         assert_eq!(grid(vec2(90.0, 500.0), 10), None);
         assert_eq!(grid(vec2(900.0, 500.0), 0), None);
     }

@@ -9,6 +9,7 @@ use super::fields::{self, caption, choose};
 use super::stack::What;
 use super::{operators, path, spots};
 use crate::context::PaneInput;
+use crate::panes::button_width;
 use crate::pickers::{board, hamnosys};
 use crate::script::edit;
 use crate::words::recombine as words;
@@ -64,7 +65,10 @@ fn source(ui: &mut Ui, seen: &PaneInput<'_>, at: At, node: &mut Node) -> bool {
         Node::Hamnosys(it) => {
             let mut changed = false;
             ui.horizontal(|ui| {
-                changed |= line(ui, seen.say(words::HAMNOSYS_SYMBOLS), "", &mut it.of);
+                let button = button_width(ui, seen.say(crate::words::hamnosys::BOARD));
+                let width = ui.available_width() - button - 3.0 * ui.spacing().item_spacing.x;
+                let name = seen.say(words::HAMNOSYS_SYMBOLS);
+                changed |= wide_line(ui, (name, ""), width, &mut it.of);
                 changed |= board::button(ui, seen, &mut it.of);
             });
             hamnosys::of_text(ui, seen, &it.of, hamnosys::EM);
@@ -90,6 +94,11 @@ fn source(ui: &mut Ui, seen: &PaneInput<'_>, at: At, node: &mut Node) -> bool {
 
 pub(super) fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> bool {
     let width = (ui.available_width() - 8.0).min(260.0);
+    wide_line(ui, (name, hint), width, text)
+}
+
+/// Shows a line of that width, in points.
+fn wide_line(ui: &mut Ui, (name, hint): (&str, &str), width: f32, text: &mut String) -> bool {
     let field = edit::line(ui, text, |field| field.hint_text(hint).desired_width(width));
     let response = field.response.response;
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));

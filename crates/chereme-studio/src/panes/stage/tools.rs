@@ -114,14 +114,6 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &m
         });
         if let Some(showing) = &seen.shown.made {
             ui.add_space(6.0);
-            let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
-            let name = RichText::new(name).color(seen.colours().accent);
-            // The width is fixed, so that the stage keeps its place whatever the recipe.
-            let size = vec2(MADE, ui.spacing().interact_size.y);
-            ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
-                ui.set_min_width(size.x);
-                ui.add(Label::new(name).truncate());
-            });
             let keys = seen.keys.text(Action::StageRecording);
             let back = match seen.shown.recording {
                 Some(_) => words::BACK,
@@ -131,6 +123,14 @@ pub(super) fn show(stage: &mut Stage, ui: &mut Ui, seen: &PaneInput<'_>, out: &m
             if back.clicked() {
                 out.send(Command::Made(None));
             }
+            let name = fill(seen.say(words::MADE_OF), &[("name", &showing.made.name)]);
+            let name = RichText::new(name).color(seen.colours().accent);
+            // The width is fixed, so that the stage keeps its place whatever the recipe.
+            let size = vec2(MADE, ui.spacing().interact_size.y);
+            ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+                ui.set_min_width(size.x);
+                ui.add(Label::new(name).truncate());
+            });
         }
     });
     ui.add_space(4.0);
