@@ -200,6 +200,10 @@ impl Notices {
                 };
                 fill(text.of(language), &[("n", steps)])
             }
+            Outcome::Proposed(it) if it.tokens == 0 && it.unread == 0 => {
+                let remedy = words::NOTICE_NO_SIGNS_REMEDY.of(language);
+                return self.say(words::NOTICE_NO_SIGNS.of(language), Some(remedy));
+            }
             Outcome::Proposed(it) if it.tokens == 0 => {
                 let text = words::NOTICE_NOT_PROPOSED.of(language);
                 return self.say(&fill(text, &[("unread", &it.unread)]), None);
@@ -497,6 +501,24 @@ mod tests {
         assert!(notice.stays && notice.text == "Checked, and faults found: 1");
         let detail = notice.detail.as_deref();
         assert_eq!(detail, Some("block 7: it is another (import again)"));
+    }
+
+    #[test]
+    fn proposals_without_signs_and_signs_that_cannot_be_read_are_reported_apart() {
+        for (unread, want) in [(0, words::NOTICE_NO_SIGNS), (3, words::NOTICE_NOT_PROPOSED)] {
+            let mut notices = Notices::default();
+            let proposed = chereme_corpus::Proposed {
+                unread,
+                ..chereme_corpus::Proposed::default()
+            };
+            notices.of(&Outcome::Proposed(proposed), Language::English);
+            let notice = notices.all.last().expect("a notice");
+            let want = fill(want.of(Language::English), &[("unread", &unread)]);
+            assert_eq!(
+                (&notice.text, notice.remedy.is_some()),
+                (&want, unread == 0)
+            );
+        }
     }
 
     #[test]

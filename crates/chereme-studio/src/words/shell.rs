@@ -108,6 +108,8 @@ texts! {
     TASK_EXPORT: "Exporting", "Exportation";
     TASK_PROPOSE: "Proposing codings from movement", "Proposition de codages d’après le mouvement";
     NOTICE_PROPOSED: "Signs coded from movement, hatched on separate tiers: {tokens}; could not be read: {unread}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Signes codés d’après le mouvement, hachurés sur des acteurs à part : {tokens} ; illisibles : {unread}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
+    NOTICE_NO_SIGNS: "No sign here lacks these values: no gloss is annotated yet, or all signs are coded.", "Aucun signe n’est sans ces valeurs ici : aucune glose n’est encore annotée, ou tous les signes sont codés.";
+    NOTICE_NO_SIGNS_REMEDY: "Annotate glosses first. “Propose with a detector…” in the menu Value finds the strokes.", "Annotez d’abord des gloses. « Proposer avec un détecteur… », dans le menu Valeur, trouve les gestes.";
     NOTICE_NOT_PROPOSED: "None of these signs could be read from movement: {unread}. Their recordings have no movement, or the movement cannot be transcribed.", "Aucun de ces signes n’a pu être lu dans le mouvement : {unread}. Leurs enregistrements sont sans mouvement, ou leur mouvement n’a pas pu être transcrit.";
     NOTICE_DETECTED: "Proposals on separate tiers, hatched: {n}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Propositions sur des acteurs à part, hachurées : {n}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
     NOTICE_NOT_DETECTED: "The detector found nothing here.", "Le détecteur n’a rien trouvé ici.";
