@@ -5,7 +5,7 @@ mod common;
 use std::path::Path;
 
 use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
-use chereme_studio::Options;
+use chereme_studio::{Language, Options};
 use common::*;
 use eframe::egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -283,5 +283,45 @@ fn an_annotated_sign_is_deleted_with_its_annotations() {
     });
     until(&mut window, "the empty list", |window| {
         says(window, "Signs (0)")
+    });
+}
+
+#[test]
+fn a_list_without_entries_differs_from_a_filter_that_nothing_fits() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = unpack_starter(&folder.path().join("files")).expect("unpacked");
+    let bare = |path: &std::path::PathBuf| path.file_name().is_some_and(|it| it == "bol.bvh");
+    let files: Vec<_> = files.into_iter().filter(bare).collect();
+    let path = folder.path().join("captured.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let options_of_import = ImportOptions::default();
+    let mut progress = Progress::new(&mut hear);
+    let imported = corpus.import(&files, &options_of_import, &mut progress);
+    imported.expect("imported");
+    drop(corpus);
+    let of = |language| {
+        window(Options {
+            corpus: Some(path.clone()),
+            asked_language: Some(language),
+            ..options(folder.path())
+        })
+    };
+    let mut window = of(Language::English);
+    until(&mut window, "the recording", |it| has(it, "Signs (0)"));
+    click(&mut window, "Signs (0)");
+    assert!(says(&window, "There are no signs yet") && !says(&window, "No sign has this name"));
+    click(&mut window, "Recordings (1)");
+    window.get_by_label("Filter").focus();
+    window.run_steps(2);
+    window.get_by_label("Filter").type_text("zzz");
+    window.run_steps(3);
+    assert!(says(&window, "No recording has this name"));
+    drop(window);
+    let mut french = of(Language::French);
+    until(&mut french, "the recording", |it| has(it, "Signes (0)"));
+    french.key_press_modifiers(Modifiers::COMMAND | Modifiers::ALT, Key::K);
+    until(&mut french, "why there is no map", |it| {
+        says(it, "une carte en demande deux")
     });
 }

@@ -6,6 +6,8 @@ texts! {
     EMPTY: "The corpus is empty. Import recordings to begin.", "Le corpus est vide. Importez des enregistrements pour commencer.";
     NONE_FIT: "No recording has this name.", "Aucun enregistrement ne porte ce nom.";
     NO_SIGN_FITS: "No sign has this name.", "Aucun signe ne porte ce nom.";
+    NO_SIGNS: "There are no signs yet. Import a lexicon, or annotate glosses in the recordings.", "Il n’y a pas encore de signes. Importez un lexique, ou annotez des gloses dans les enregistrements.";
+    NO_RECORDINGS: "There are no recordings yet, only signs.", "Il n’y a pas encore d’enregistrements, seulement des signes.";
     RECORDINGS: "Recordings ({n})", "Enregistrements ({n})";
     SIGNS: "Signs ({n})", "Signes ({n})";
     WALL: "Wall", "Mur";

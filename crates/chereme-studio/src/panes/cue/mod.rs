@@ -18,7 +18,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
 use crate::script::edit;
-use crate::words::{Text, cue as words, fill};
+use crate::words::{Text, cue as words, fill, spoken};
 use crate::work::{Ended, Outcome, WorkId, analysis, recombining};
 use data::{Choices, Corrections, Exercise, Reading, key_name};
 
@@ -291,10 +291,12 @@ impl CuePane {
             }
         });
         if let Some(wrong) = &self.wrong {
+            let wrong = spoken(wrong, seen.language);
             ui.label(RichText::new(wrong).color(seen.colours().trouble));
         }
         if let Some(made) = &self.made {
             for warning in &made.report.warnings {
+                let warning = spoken(warning, seen.language);
                 ui.label(RichText::new(warning).small().color(seen.colours().trouble));
             }
         }
@@ -456,6 +458,7 @@ impl CuePane {
             }
         });
         if let Some(wrong) = &self.slips_wrong {
+            let wrong = spoken(wrong, seen.language);
             ui.label(RichText::new(wrong).color(seen.colours().trouble));
         }
         let Some(found) = &self.slips else { return };

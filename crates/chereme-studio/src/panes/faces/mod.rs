@@ -18,7 +18,7 @@ use super::{Pane, combo};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::model::generated::GeneratedClip;
-use crate::words::{Text, faces as words, fill};
+use crate::words::{Text, faces as words, fill, spoken};
 use crate::work::{Ended, Outcome, WorkId, analysis, faces};
 
 /// How many candidates are shown.
@@ -301,7 +301,7 @@ impl Pane for Faces {
             }
             self.milestones(ui, seen, out);
             if let Some(wrong) = &self.wrong {
-                ui.colored_label(seen.colours().warning, wrong);
+                ui.colored_label(seen.colours().warning, spoken(wrong, seen.language));
             }
             if let Some(choice) = self.choice.clone() {
                 self.candidates(ui, seen, &choice, out);

@@ -442,6 +442,12 @@ impl Pane for Library {
             self.hint(ui, seen, out);
         }
         match list {
+            List::Recordings if overview.recordings.is_empty() => {
+                ui.label(seen.say(words::NO_RECORDINGS));
+            }
+            List::Signs if overview.signs.is_empty() => {
+                ui.label(seen.say(words::NO_SIGNS));
+            }
             List::Recordings if self.rows.recordings.is_empty() => {
                 ui.label(seen.say(words::NONE_FIT));
             }

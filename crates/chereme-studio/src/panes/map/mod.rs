@@ -19,7 +19,7 @@ use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::miniatures::{self, Cell, Motion};
 use crate::panes::inspector::Thing;
-use crate::words::{fill, inspector, map as words};
+use crate::words::{fill, inspector, map as words, spoken};
 use crate::work::{Ended, Outcome, WorkId, searching};
 use data::{Labels, View};
 
@@ -408,7 +408,7 @@ impl Pane for Map {
         self.follow(seen, out);
         self.tools(ui, seen);
         if let Some(wrong) = &self.wrong {
-            ui.weak(wrong);
+            ui.weak(spoken(wrong, seen.language));
         }
         let Some(map) = self.map.clone() else {
             return;
