@@ -5,6 +5,7 @@ use chereme_figure::View;
 use chereme_motion::Side;
 use chereme_sign::HandRef;
 use chereme_sign::tier::Hands;
+use eframe::egui::epaint::RectShape;
 use eframe::egui::{
     Align2, Color32, CornerRadius, Pos2, Rect, Role, Sense, Stroke, StrokeKind, TextStyle, Ui,
     WidgetInfo, pos2, vec2,
@@ -41,7 +42,9 @@ pub(super) fn show(
     let whole = Rect::from_min_max(Pos2::ZERO, pos2(1.0, 1.0));
     for (at, (inset, texture)) in insets.iter().zip(&stage.textures[before..]).enumerate() {
         let painter = ui.painter();
-        painter.image(texture.id(), inset.rect, whole, Color32::WHITE);
+        // Corners of the picture would be visible outside of its rounded frame.
+        let picture = RectShape::filled(inset.rect, CornerRadius::same(3), Color32::WHITE);
+        painter.add(picture.with_texture(texture.id(), whole));
         let colours = seen.colours();
         let id = ui.scope_id().with(("inset", at));
         let response = ui.interact(inset.rect, id, Sense::click());
