@@ -1,19 +1,21 @@
-//! HamNoSys as lines of text (`.hns`, `.txt`): one sign per line, after its gloss.
+//! HamNoSys as lines of text (`.hns`, `.txt`): one sign per line, after or before its gloss.
 //!
 //! A line holds a gloss, a tab and HamNoSys, as characters, as names of symbols or as numbers of
 //! characters (`U+E001`). The text before the first symbol of a line is its gloss, whatever separates the
-//! two; a line may have none. Of several columns before the symbols, the one that names the signs is the gloss.
+//! two, or else the text after the last symbol; a line may have none. Of several columns beside the symbols, the one that
+//! names the signs is the gloss.
 
 use crate::finding::Finding;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
 
 /// The number of leading bytes that decide whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
-/// The most columns before the symbols among which glosses are looked for.
+/// The most columns before the symbols among which glosses are looked for. The columns after the symbols are counted
+/// from this number.
 const MOST_COLUMNS: usize = 16;
 
 /// A notated sign and its line.
@@ -62,11 +64,10 @@ pub fn read(bytes: &[u8]) -> Result<(Vec<HnsSign>, Vec<Finding>), Error> {
             findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
         let text = &*in_plain_symbols(text);
-        match begin(text) {
-            Some(at) => {
-                let (before, symbols) = text.split_at(at);
-                let gloss = gloss(line, before, glosses, &mut findings);
-                entries.push(entry(line, (gloss, symbols), &mut findings));
+        match Parts::of(text) {
+            Some(parts) => {
+                let gloss = gloss(line, &parts, glosses, &mut findings);
+                entries.push(entry(line, (gloss, parts.symbols), &mut findings));
             }
             None if text.trim().is_empty() => {}
             None => findings.add("lines without HamNoSys", || {
@@ -143,24 +144,87 @@ fn begin(line: &str) -> Option<usize> {
     [line.find(character), named].into_iter().flatten().min()
 }
 
-/// Returns the texts that tabs part before the symbols of a line.
-fn columns(before: &str) -> Vec<&str> {
-    let columns = before.trim_end_matches('\t').split('\t');
+/// Returns the byte at which the last symbol of a line ends, whether or not it is a known one.
+fn end(line: &str) -> usize {
+    let is_character = |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c);
+    let character = line.char_indices().rfind(|(_, c)| is_character(*c));
+    let character = character.map(|(at, c)| at + c.len_utf8());
+    let lower = line.to_ascii_lowercase();
+    let names = lower
+        .match_indices("ham")
+        .filter(|(at, _)| !line[..*at].ends_with(|c: char| c.is_alphanumeric()));
+    let named = names.last().map(|(at, _)| {
+        let rest = &line[at..];
+        at + rest
+            .find(|c: char| !c.is_ascii_alphanumeric() && c != '_')
+            .unwrap_or(rest.len())
+    });
+    character.max(named).unwrap_or(line.len())
+}
+
+/// A line with symbols: the text before them, the symbols, and the text after them if something parts it from them.
+struct Parts<'t> {
+    before: &'t str,
+    symbols: &'t str,
+    after: &'t str,
+}
+
+impl<'t> Parts<'t> {
+    /// Returns the parts of a line; `None` if it holds no symbol.
+    fn of(line: &'t str) -> Option<Self> {
+        let first = begin(line)?;
+        let before = &line[..first];
+        let (symbols, after) = line[first..].split_at(end(&line[first..]));
+        let lead = after.find(char::is_alphanumeric).map(|at| &after[..at]);
+        let is_parted = lead.is_some_and(|lead| {
+            let has_gloss = before.contains(char::is_alphanumeric);
+            let is_column = |c: char| c == '\t' || parting(c) && !c.is_whitespace();
+            lead.contains(is_column) || lead.contains("  ") || !has_gloss && lead.contains(' ')
+        });
+        Some(match is_parted {
+            true => Self {
+                before,
+                symbols,
+                after,
+            },
+            false => Self {
+                before,
+                symbols: &line[first..],
+                after: "",
+            },
+        })
+    }
+
+    /// Returns the texts beside the symbols with the numbers of their columns.
+    fn columns(&self) -> impl Iterator<Item = (usize, &'t str)> {
+        let before = columns(self.before).into_iter().take(MOST_COLUMNS);
+        let after = self.after.trim_start_matches('"');
+        let after = after.strip_prefix('\t').unwrap_or(after);
+        let after = columns(after).into_iter().take(MOST_COLUMNS);
+        (0..).zip(before).chain((MOST_COLUMNS..).zip(after))
+    }
+}
+
+/// Returns the texts that tabs part on one side of the symbols of a line.
+fn columns(side: &str) -> Vec<&str> {
+    let columns = side.trim_end_matches('\t').split('\t');
     columns.map(|text| text.trim_matches(parting)).collect()
 }
 
-/// Returns the column before the symbols that holds the glosses, counted from 0: the first one with many different texts
-/// that are letters for the most part. A number, a code or a language is no gloss.
+/// Returns the column beside the symbols that holds the glosses: the first one with many different texts that are letters
+/// for the most part. A number, a code or a language is no gloss.
 fn gloss_column(text: &str) -> usize {
-    let mut seen: Vec<(BTreeSet<String>, usize, usize)> = Vec::new();
-    for line in text.lines().filter(|line| line.contains('\t')) {
+    let mut seen: BTreeMap<usize, (BTreeSet<String>, usize, usize)> = BTreeMap::new();
+    for line in text.lines() {
         let line = in_plain_symbols(line);
-        let before = begin(&line).map_or("", |at| &line[..at]);
-        for (at, text) in columns(before).into_iter().enumerate().take(MOST_COLUMNS) {
-            if seen.len() == at {
-                seen.push((BTreeSet::new(), 0, 1));
-            }
-            let (texts, letters, all) = &mut seen[at];
+        let Some(parts) = Parts::of(&line) else {
+            continue;
+        };
+        if !line.contains('\t') && parts.after.is_empty() {
+            continue;
+        }
+        for (at, text) in parts.columns() {
+            let (texts, letters, all) = seen.entry(at).or_insert((BTreeSet::new(), 0, 1));
             let count = text.chars().filter(|c| c.is_alphabetic()).count();
             *letters += count;
             *all += text.chars().count();
@@ -169,42 +233,51 @@ fn gloss_column(text: &str) -> usize {
             }
         }
     }
-    let most = seen
-        .iter()
-        .map(|(texts, ..)| texts.len())
-        .max()
-        .unwrap_or_default();
-    let named = |(texts, letters, all): &(BTreeSet<String>, usize, usize)| {
+    let most = seen.values().map(|(texts, ..)| texts.len()).max();
+    let most = most.unwrap_or_default();
+    let named = |(_, (texts, letters, all)): &(&usize, &(BTreeSet<String>, usize, usize))| {
         texts.len() * 2 >= most && letters * 2 >= *all
     };
-    let lettered = || seen.iter().position(|(texts, ..)| texts.len() == most);
-    seen.iter()
-        .position(named)
-        .or_else(lettered)
-        .unwrap_or_default()
+    let lettered = || seen.iter().find(|(_, (texts, ..))| texts.len() == most);
+    let found = seen.iter().find(named).or_else(lettered);
+    found.map_or(0, |(at, _)| *at)
 }
 
-/// Returns the gloss among the columns before the symbols of a line, and reports the others.
-fn gloss<'t>(line: u64, before: &'t str, column: usize, findings: &mut Findings) -> &'t str {
-    let columns = columns(before);
-    let others = columns.len() > 1 && columns.iter().filter(|text| !text.is_empty()).count() > 1;
-    if !others {
-        return before;
+/// Returns the gloss among the columns beside the symbols of a line, and reports the others.
+fn gloss<'t>(line: u64, parts: &Parts<'t>, column: usize, findings: &mut Findings) -> &'t str {
+    let texts: Vec<(usize, &str)> = parts.columns().filter(|it| !it.1.is_empty()).collect();
+    match texts.as_slice() {
+        [] => return parts.before,
+        [(at, _)] if *at < MOST_COLUMNS => return parts.before,
+        [(_, text)] => return text,
+        _ => {}
     }
-    // A line with fewer columns than the others has its gloss in the last one.
-    let gloss = columns.get(column).or(columns.last()).copied();
+    // A line with fewer columns than the others has its gloss in the last one of that side.
+    let is_after = column >= MOST_COLUMNS;
+    let same_side = |it: &&(usize, &str)| (it.0 >= MOST_COLUMNS) == is_after;
+    let found = texts.iter().find(|it| it.0 == column);
+    let found = found.or_else(|| texts.iter().rfind(same_side));
+    let (at, gloss) = found.or(texts.first()).copied().unwrap_or_default();
+    let left_out = texts.iter().filter(|it| it.0 != at);
+    let left_out: Vec<&str> = left_out.map(|it| it.1).collect();
     findings.add("columns beside the gloss", || {
-        Finding::note(
-            line,
-            format!(
-                "of the columns before HamNoSys, number {} was taken for the gloss: {:?}; the others were left out",
-                column + 1,
-                gloss.unwrap_or_default()
+        let message = match at.checked_sub(MOST_COLUMNS) {
+            Some(after) => format!(
+                "of the columns beside HamNoSys, number {} after it was taken for the gloss: {gloss:?}; the others were \
+                 left out",
+                after + 1
             ),
+            None if texts.iter().filter(|it| it.0 < MOST_COLUMNS).count() > 1 => format!(
+                "of the columns before HamNoSys, number {} was taken for the gloss: {gloss:?}; the others were left out",
+                at + 1
+            ),
+            None => format!("the text after HamNoSys was left out: {:?}", left_out.join(", ")),
+        };
+        Finding::note(line, message).with_remedy(
+            "if another one is the gloss, leave out the others, or save the file as a table with titles: .tsv",
         )
-        .with_remedy("if another one is the gloss, leave out the others, or save the file as a table with titles: .tsv")
     });
-    gloss.unwrap_or_default()
+    gloss
 }
 
 /// Returns whether a character stands between a gloss and its notation.
@@ -332,6 +405,69 @@ mod tests {
         let wanted = "of the columns before HamNoSys, number 2 was taken for the gloss: \"DERTIEN_13\"; \
                       the others were left out";
         assert_eq!(findings[0].message, wanted);
+    }
+
+    #[test]
+    fn a_gloss_may_stand_after_the_symbols() {
+        let flat = "hamflathand hamextfingeru hampalml";
+        let characters = "\u{e001}\u{e020}\u{e03c}";
+        // The lines, the glosses and the beginning of the finding.
+        let cases: [(&[&str], &[&str], &str); 10] = [
+            (&["*\tMERCI", "*\tBON JOUR"], &["MERCI", "BON JOUR"], ""),
+            (&["*,MERCI", "*,BON JOUR"], &["MERCI", "BON JOUR"], ""),
+            (&["\"*\",\"MERCI\""], &["MERCI"], ""),
+            (&["*;MERCI", "*"], &["MERCI", ""], ""),
+            (&["*   MERCI", "* BON"], &["MERCI", "BON"], ""),
+            (
+                &["12\t*\tMERCI", "13\t*\tBON"],
+                &["MERCI", "BON"],
+                "of the columns beside HamNoSys, number 1 after",
+            ),
+            (
+                &["*\t12\tMERCI", "*\t13\tBON"],
+                &["MERCI", "BON"],
+                "of the columns beside HamNoSys, number 2 after",
+            ),
+            (
+                &["*\tMERCI\t", "*\tBON\tx"],
+                &["MERCI", "BON"],
+                "of the columns beside HamNoSys, number 1 after",
+            ),
+            (
+                &["MERCI\t*\tthanks", "BON\t*"],
+                &["MERCI", "BON"],
+                "the text after HamNoSys was left out: \"thanks\"",
+            ),
+            (&["MERCI\t*", "*\tBON"], &["MERCI", "BON"], ""),
+        ];
+        for notation in [flat, characters] {
+            for (lines, wanted, finding) in cases {
+                let text = lines.join("\n").replace('*', notation);
+                let (entries, findings) = read(text.as_bytes()).expect("read");
+                let found: Vec<&str> = entries.iter().map(|it| it.sign.gloss.as_str()).collect();
+                assert_eq!(found, wanted, "{text:?}");
+                for entry in &entries {
+                    assert_eq!(entry.sign.text.as_deref(), Some(notation), "{text:?}");
+                }
+                let messages: Vec<&str> = findings.iter().map(|it| it.message.as_str()).collect();
+                match finding {
+                    "" => assert_eq!(messages, Vec::<&str>::new(), "{text:?}"),
+                    start => assert!(
+                        messages.iter().any(|it| it.starts_with(start)),
+                        "{messages:?}"
+                    ),
+                }
+            }
+        }
+        // Odd symbols at the end are no gloss.
+        for odd in ["hamnosuch", "\u{e001}hamnosuch", "{", "xyz"] {
+            let (entries, findings) = read(format!("A\t{flat} {odd}").as_bytes()).expect("read");
+            assert_eq!(entries[0].sign.gloss, "A", "{odd}");
+            assert!(
+                findings[0].message.starts_with("symbol "),
+                "{odd}: {findings:?}"
+            );
+        }
     }
 
     #[test]

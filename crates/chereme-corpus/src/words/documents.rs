@@ -276,6 +276,14 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "si l’une d’elles est une valeur de la composante, écrivez-la autrement dans la table",
     ),
     (
+        "of the columns beside HamNoSys, number {n} after it was taken for the gloss: {gloss}; the others were left out",
+        "des colonnes autour de HamNoSys, la colonne {n} après lui a été prise pour la glose : {gloss} ; les autres ont été laissées de côté",
+    ),
+    (
+        "the text after HamNoSys was left out: {text}",
+        "le texte après HamNoSys a été laissé de côté : {text}",
+    ),
+    (
         "of the columns before HamNoSys, number {n} was taken for the gloss: {gloss}; the others were left out",
         "des colonnes avant le HamNoSys, la {n} a été prise pour la glose : {gloss} ; les autres ont été laissées de côté",
     ),
