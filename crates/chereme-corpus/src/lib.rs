@@ -161,8 +161,8 @@ pub use search::{
 pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
 pub use suggest::{Partner, Suggestions};
 pub use track::{
-    Alignment, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal, SkeletonTrack,
-    Track, TrackChange, TrackKind, TrackRow,
+    Alignment, FitOptions, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal,
+    SkeletonTrack, Track, TrackChange, TrackKind, TrackRow,
 };
 pub use transcribe::{Transcribed, TranscribedFeature, TranscribedStage, TranscribedValue};
 pub use values::MergedValues;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::Name;
+use chereme_corpus::{FitOptions, Name};
 
 use super::track::recording;
 use crate::args::Cli;
@@ -20,6 +20,7 @@ use crate::words::Words;
 Examples:
   chereme fit mine.chereme recording:3
   chereme fit mine.chereme recording:3 --to recording:1
+  chereme fit mine.chereme recording:3 --subject Anna
   chereme fit mine.chereme recording:3 --dry-run --json")]
 pub(crate) struct Args {
     /// The corpus
@@ -33,6 +34,9 @@ pub(crate) struct Args {
     /// The track of markers, if there are several
     #[arg(long, value_name = "NAME")]
     track: Option<String>,
+    /// The person whose markers are used, if they are those of several people: Anna for Anna:LSHO
+    #[arg(long, value_name = "NAME")]
+    subject: Option<String>,
     /// Report the distances and store nothing
     #[arg(long)]
     dry_run: bool,
@@ -40,8 +44,13 @@ pub(crate) struct Args {
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
-    let track = args.track.as_deref();
-    let report = corpus.fit_markers(&args.recording, track, args.to.as_ref(), args.dry_run)?;
+    let options = FitOptions {
+        track: args.track.as_deref(),
+        to: args.to.as_ref(),
+        subject: args.subject.as_deref(),
+        dry_run: args.dry_run,
+    };
+    let report = corpus.fit_markers(&args.recording, &options)?;
     let rows: Vec<Vec<String>> = report
         .residuals
         .iter()
@@ -91,6 +100,10 @@ pub(super) const WORDS: Words = Words {
         (
             "The track of markers, if there are several",
             "La piste de marqueurs, s’il y en a plusieurs",
+        ),
+        (
+            "The person whose markers are used, if they are those of several people: Anna for Anna:LSHO",
+            "La personne dont les marqueurs servent, s’ils sont ceux de plusieurs personnes : Anna pour Anna:LSHO",
         ),
         (
             "Report the distances and store nothing",

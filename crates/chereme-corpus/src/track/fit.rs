@@ -21,14 +21,32 @@ const FAR: f64 = 0.02;
 /// The least share of frames in which the markers of a usable result are seen; a smaller one gives a warning.
 const SEEN: f64 = 0.6;
 
+/// The name of the track from which a recording's signs are read if it has one.
+const BODY: &str = "body";
 /// The statures of signers in metres, children included; another gives a warning.
 const STATURES: [f64; 2] = [0.7, 2.4];
+
+/// Options of a fit.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct FitOptions<'a> {
+    /// The track of markers; the first one if it is not given.
+    pub track: Option<&'a str>,
+    /// The recording whose skeleton is fitted; without it the program's own body.
+    pub to: Option<&'a Name>,
+    /// The person whose markers are used, such as `Anna` for `Anna:LSHO`; needed if they are those of several people.
+    pub subject: Option<&'a str>,
+    /// Whether nothing is stored.
+    pub dry_run: bool,
+}
 
 /// A skeleton that was fitted to markers.
 #[derive(Debug, Clone, Serialize)]
 pub struct FitReport {
     /// The track of markers.
     pub markers: String,
+    /// The person whose markers were used, if one was named.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub subject: Option<String>,
     /// The name of the new track with the movement; nothing if nothing was stored.
     pub track: Option<String>,
     /// The size of the fitted skeleton relative to the given one.
@@ -66,33 +84,33 @@ impl Corpus {
     /// Fits a skeleton to a recording's markers: that of another recording, or the program's own body.
     ///
     /// The movement becomes a track `body` of the recording (another name if it has one), and the distance of every
-    /// marker in every frame a track of curves, `fit residual`; the markers stay. With `dry_run` nothing is stored.
+    /// marker in every frame a track of curves, `fit residual`, whose names keep the person's; the markers stay. A dry run
+    /// stores nothing.
     ///
     /// # Errors
-    /// Fails if there is no such recording or track of markers, the points have no place in a room, too few labels are
-    /// known, or the skeleton is not a body's.
-    pub fn fit_markers(
-        &mut self,
-        recording: &Name,
-        track: Option<&str>,
-        to: Option<&Name>,
-        dry_run: bool,
-    ) -> Result<FitReport> {
+    /// Fails if there is no such recording or track of markers, the points have no place in a room, are those of several
+    /// people and none of them is named, too few labels are known, or the skeleton is not a body's.
+    pub fn fit_markers(&mut self, recording: &Name, options: &FitOptions<'_>) -> Result<FitReport> {
         let connection = self.store.read();
         let row = address::recording(connection, recording)?;
-        let markers = chosen(connection, &row.name, row.id, track)?;
-        let (skeleton, anatomy) = skeleton(connection, to)?;
+        let markers = chosen(connection, &row.name, row.id, options.track)?;
+        let (skeleton, anatomy) = skeleton(connection, options.to)?;
         let points = read::markers(connection, &markers, None)?;
-        let fitted = fit(&points, &skeleton, &anatomy).map_err(|error| {
+        let fitted = fit(&points, &skeleton, &anatomy, options.subject).map_err(|error| {
             Error::wrong(error.to_string())
                 .at(&row.name)
-                .advise(match error {
-                    FitError::People(_) => "write a file for each person, and import each as a recording of its own",
-                    _ => "markers are known by labels such as LSHO, RWRA, C7 or R.Elbow; rename them in the file",
-                })
+                .advise(remedy(&error))
         })?;
-        let mut report = report(&markers.name, &fitted);
-        if dry_run {
+        let mut report = report(&markers.name, options.subject, &fitted);
+        let known = recordings::body_track(connection, row.id)?;
+        if known.is_some_and(|known| known.name == BODY) {
+            report.findings.push(
+                "the recording has a body already, from which signs are read; import the file again as a recording of \
+                 its own for another person"
+                    .to_owned(),
+            );
+        }
+        if options.dry_run {
             return Ok(report);
         }
         let new = new_tracks(&fitted, markers.offset_us)?;
@@ -102,14 +120,33 @@ impl Corpus {
                 let id = store::store(connection, row.id, track)?;
                 names.push(tracks::track(connection, id)?.name);
             }
+            let of = options.subject.map(|it| format!(" of {it}"));
             let summary = format!(
-                "{}: a skeleton fitted to {}, {:.0} mm",
-                row.name, markers.name, report.median_mm
+                "{}: a skeleton fitted to {}{}, {:.0} mm",
+                row.name,
+                markers.name,
+                of.unwrap_or_default(),
+                report.median_mm
             );
             Ok((names, summary))
         })?;
         report.track = names.into_iter().next();
         Ok(report)
+    }
+}
+
+fn remedy(error: &FitError) -> Remedy {
+    match error {
+        FitError::People(people) | FitError::Subject { known: people, .. }
+            if !people.is_empty() =>
+        {
+            let name = people.first().map_or("", String::as_str);
+            Remedy::command(format!("name one of them: --subject {name:?}"))
+        }
+        _ => {
+            "markers are known by labels such as LSHO, RWRA, C7 or R.Elbow; rename them in the file"
+                .into()
+        }
     }
 }
 
@@ -172,12 +209,12 @@ fn new_tracks(fitted: &Fitted, offset_us: i64) -> Result<Vec<NewTrack>> {
         ..NewTrack::new(name, track)
     };
     Ok(vec![
-        track("body", Track::Skeleton(body)),
+        track(BODY, Track::Skeleton(body)),
         track("fit residual", Track::Curves(curves)),
     ])
 }
 
-fn report(markers: &str, fitted: &Fitted) -> FitReport {
+fn report(markers: &str, subject: Option<&str>, fitted: &Fitted) -> FitReport {
     let mm = |metres: f64| (metres * 10_000.0).round() / 10.0;
     let skeleton = fitted.clip.skeleton();
     let seen = fitted.markers.iter().map(|marker| marker.seen).sum::<f64>()
@@ -191,6 +228,12 @@ fn report(markers: &str, fitted: &Fitted) -> FitReport {
             seen * 100.0,
             FAR * 1000.0,
             SEEN * 100.0
+        ));
+    }
+    if let Some(subject) = subject.filter(|_| fitted.others > 0) {
+        findings.push(format!(
+            "markers that are not of {subject:?} and are left out: {}",
+            fitted.others
         ));
     }
     if fitted.held > 0 {
@@ -220,6 +263,7 @@ fn report(markers: &str, fitted: &Fitted) -> FitReport {
     );
     FitReport {
         markers: markers.to_owned(),
+        subject: subject.map(str::to_owned),
         track: None,
         scale: (fitted.scale * 1000.0).round() / 1000.0,
         frames: fitted.clip.frames(),

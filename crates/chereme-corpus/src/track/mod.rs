@@ -26,7 +26,7 @@ use chereme_motion::{Clip, Convention, Curves, Markers};
 pub use crate::db::tracks::{TrackKind, TrackRow};
 pub use align::{Alignment, Signal};
 pub use change::TrackChange;
-pub use fit::{FitReport, FitResidual};
+pub use fit::{FitOptions, FitReport, FitResidual};
 pub use piece::PointsPiece;
 
 /// The content of a track.

@@ -539,13 +539,21 @@ fn what_a_fit_does_not_show_is_said_in_both_languages() {
         ),
     ];
     let (_folder, mut corpus, take) = corpus();
-    let mut fitted = |track: Markers| {
+    let mut fitted = |track: Markers, subject: Option<&str>, dry_run: bool| {
         let new = [NewTrack::new("markers", Track::Markers(track))];
         let rows = corpus.add_tracks(&take, &new).expect("stored");
-        corpus.fit_markers(&take, Some(&rows[0].name), None, true)
+        let options = crate::FitOptions {
+            track: Some(&rows[0].name),
+            subject,
+            dry_run,
+            ..crate::FitOptions::default()
+        };
+        corpus.fit_markers(&take, &options)
     };
     for (without, unit, expected) in cases {
-        let report = fitted(worn(&["Anna"], without, unit)).expect("a fit");
+        let report = fitted(worn(&["Anna"], without, unit), None, true).expect("a fit");
+        let expected = expected.iter().chain(&["the recording has a body already"]);
+        let expected: Vec<&str> = expected.copied().collect();
         assert_eq!(
             report.findings.len(),
             expected.len(),
@@ -558,7 +566,36 @@ fn what_a_fit_does_not_show_is_said_in_both_languages() {
             assert!(french.is_some_and(|it| it != *finding), "{finding}");
         }
     }
-    let error = fitted(worn(&["Anna", "Bob"], &[], 1.0)).expect_err("two people");
-    let text = error.to_string();
-    assert!(text.contains("several people: Anna, Bob"), "{text}");
+    for (subject, message) in [
+        (None, "several people: Anna, Bob"),
+        (Some("Cleo"), "is of \"Cleo\"; the people are: Anna, Bob"),
+    ] {
+        let error =
+            fitted(worn(&["Anna", "Bob"], &[], 1.0), subject, true).expect_err("two people");
+        let text = error.to_string();
+        assert!(text.contains(message), "{text}");
+        let remedy = error.remedy().map(|it| it.text().to_owned());
+        assert_eq!(
+            remedy.as_deref(),
+            Some("name one of them: --subject \"Anna\"")
+        );
+    }
+    let report = fitted(worn(&["Anna", "Bob"], &[], 1.0), Some("Bob"), false).expect("a fit");
+    assert!(
+        report
+            .residuals
+            .iter()
+            .all(|it| it.marker.starts_with("Bob:"))
+    );
+    let left_out = "markers that are not of \"Bob\" and are left out: 17";
+    assert_eq!(
+        (report.residuals.len(), report.findings[0].as_str()),
+        (17, left_out)
+    );
+    let deed = &corpus.log(1).expect("read")[0];
+    assert!(
+        deed.summary.contains("fitted to markers 6 of Bob, "),
+        "{}",
+        deed.summary
+    );
 }

@@ -531,8 +531,20 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "les marqueurs sont ceux de plusieurs personnes : {names}",
     ),
     (
-        "write a file for each person, and import each as a recording of its own",
-        "écrivez un fichier par personne, et importez chacun comme un enregistrement à part",
+        "no marker with a known label is of {name}; the people are: {names}",
+        "aucun marqueur d’étiquette connue n’est de {name} ; les personnes sont : {names}",
+    ),
+    (
+        "name one of them: --subject {name}",
+        "nommez l’une d’elles : --subject {name}",
+    ),
+    (
+        "markers that are not of {name} and are left out: {n}",
+        "marqueurs qui ne sont pas de {name} et sont laissés de côté : {n}",
+    ),
+    (
+        "the recording has a body already, from which signs are read; import the file again as a recording of its own for another person",
+        "l’enregistrement a déjà un corps, sur lequel les signes se lisent ; pour une autre personne, importez de nouveau le fichier comme un enregistrement à part",
     ),
     (
         "frames with too few markers, in which the posture before is held: {n}",

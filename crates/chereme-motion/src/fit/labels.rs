@@ -113,10 +113,32 @@ const SIDED: [(&str, Bone); 40] = [
     ("MT5", Bone::Toe),
 ];
 
-/// Returns the place of a marker by its label, such as `LSHO`, `Anna:RWRA` or `R.Elbow`; `None` for an unknown label.
+/// Returns the place of a marker by its label, such as `LSHO`, `Anna:RWRA`, `Anna_RWRA` or `R.Elbow`; `None` for an
+/// unknown label.
 #[must_use]
 pub fn attachment(label: &str) -> Option<Attachment> {
-    let bare = label.rsplit(':').next().unwrap_or(label);
+    worn(label).1
+}
+
+/// Returns the subject before a marker's label, such as `Anna` of `Anna:LSHO` and of `Anna_LSHO`, and the marker's place;
+/// a name without a known label ends at its last colon.
+pub(super) fn worn(name: &str) -> (&str, Option<Attachment>) {
+    let (subject, bare) = name.rsplit_once(':').unwrap_or(("", name));
+    if let Some(place) = bare_attachment(bare) {
+        return (subject, Some(place));
+    }
+    let after_colon = name.len() - bare.len();
+    let known = bare.match_indices('_').find_map(|(at, _)| {
+        let subject = &name[..after_colon + at];
+        Some((subject, bare_attachment(&bare[at + 1..])?))
+    });
+    match known.filter(|(subject, _)| !subject.is_empty()) {
+        Some((subject, place)) => (subject, Some(place)),
+        None => (subject, None),
+    }
+}
+
+fn bare_attachment(bare: &str) -> Option<Attachment> {
     let plain: String = bare
         .chars()
         .filter(char::is_ascii_alphanumeric)

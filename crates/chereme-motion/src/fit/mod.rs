@@ -21,13 +21,14 @@ use glam::{DQuat, DVec3};
 use crate::anatomy::{Anatomy, Part};
 use crate::clip::{Channel, Clip, ClipError};
 use crate::hand::Side;
-use crate::markers::{Markers, Space};
+use crate::markers::{Marker, Markers, Space};
 use crate::pose::{ModelPose, Pose};
 use crate::skeleton::{Joint, Skeleton, SkeletonError};
 use crate::time::{Rate, RateError};
 use crate::times::Times;
 
 pub use labels::{Attachment, attachment};
+use people::Person;
 use roll::Wrist;
 use solve::{Solver, Target};
 
@@ -45,6 +46,8 @@ pub struct Fitted {
     pub markers: Vec<FittedMarker>,
     /// The labels of markers that belong to no known bone.
     pub unused: Vec<String>,
+    /// The number of markers of other people, which are left out.
+    pub others: usize,
     /// The number of frames with too few markers, in which the posture before is held.
     pub held: usize,
     /// The sides whose two wrist markers are not both there: the turn of forearm and palm about the forearm is a guess.
@@ -97,6 +100,14 @@ pub enum FitError {
     /// The markers are those of several people.
     #[error("the markers are those of several people: {}", .0.join(", "))]
     People(Vec<String>),
+    /// No marker with a known label belongs to that person.
+    #[error("no marker with a known label is of {wanted:?}; the people are: {}", known.join(", "))]
+    Subject {
+        /// The name that was asked for.
+        wanted: String,
+        /// The people of the markers.
+        known: Vec<String>,
+    },
     /// No frame has enough markers.
     #[error("no frame has {0} markers with a known label at once")]
     Gaps(usize),
@@ -136,12 +147,18 @@ struct Used {
     place: DVec3,
 }
 
-/// Fits a skeleton in metres and model space to markers.
+/// Fits a skeleton in metres and model space to markers: to those of `subject`, such as `Anna` for `Anna:LSHO`, if it is
+/// given.
 ///
 /// # Errors
-/// [`FitError`] if the points are not in metric space, belong to several people, too few labels are known, no frame has
-/// enough markers, or the skeleton is not that of a body.
-pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<Fitted, FitError> {
+/// [`FitError`] if the points are not in metric space, belong to several people and `subject` names none of them, too few
+/// labels are known, no frame has enough markers, or the skeleton is not that of a body.
+pub fn fit(
+    markers: &Markers,
+    skeleton: &Skeleton,
+    anatomy: &Anatomy,
+    subject: Option<&str>,
+) -> Result<Fitted, FitError> {
     if !matches!(markers.space(), Space::World(_)) {
         return Err(FitError::Flat);
     }
@@ -152,7 +169,7 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
         return Err(FitError::NoBody);
     };
     let shown: Vec<Vec<Option<DVec3>>> = (0..markers.frames()).map(|f| shown(markers, f)).collect();
-    let labels = people::labels(markers)?;
+    let Person { labels, others } = people::person(markers, subject)?;
     let measured = scale(&shown, &labels, skeleton, anatomy);
     let scale = measured.clamp(SCALES[0], SCALES[1]);
     let skeleton = scaled(skeleton, scale)?;
@@ -168,7 +185,8 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
                 expected,
                 place: expected,
             }),
-            None => unused.push(point.name.clone()),
+            None if subject.is_some() && others[marker] => {}
+            None => unused.push(full_name(point)),
         }
     }
     if used.len() < FEWEST {
@@ -198,7 +216,11 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
     calibrate(&mut solver, &mut used, &wrists, &shown, &whole, &skeleton);
     let moved = all_frames(&mut solver, &used, &shown, &skeleton);
     let rate = rate(markers)?;
-    finish(
+    let others = match subject {
+        Some(_) => others.into_iter().filter(|it| *it).count(),
+        None => 0,
+    };
+    let fitted = finish(
         markers,
         skeleton,
         (scale, measured * measures.stature),
@@ -206,7 +228,8 @@ pub fn fit(markers: &Markers, skeleton: &Skeleton, anatomy: &Anatomy) -> Result<
         (used, unused, unturned),
         &shown,
         moved,
-    )
+    )?;
+    Ok(Fitted { others, ..fitted })
 }
 
 /// Returns the places of a frame; a place at exactly 0 0 0 in the file is a gap that a program wrote so.
@@ -460,7 +483,7 @@ fn finish(
         off.sort_by(f64::total_cmp);
         let most = off.get(off.len() * 19 / 20).or(off.last()).copied();
         FittedMarker {
-            name: markers.points()[it.marker].name.clone(),
+            name: full_name(&markers.points()[it.marker]),
             joint: it.joint,
             place: it.place,
             seen: off.len() as f64 / shown.len().max(1) as f64,
@@ -481,9 +504,18 @@ fn finish(
         stature,
         markers: fitted,
         unused,
+        others: 0,
         held: moved.held,
         unturned,
     })
+}
+
+/// Returns the name of a marker with its subject: `Anna:LSHO`.
+fn full_name(point: &Marker) -> String {
+    match point.group.is_empty() {
+        true => point.name.clone(),
+        false => format!("{}:{}", point.group, point.name),
+    }
 }
 
 fn middle(mut values: Vec<f64>) -> f64 {

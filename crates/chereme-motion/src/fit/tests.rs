@@ -4,7 +4,6 @@ use super::*;
 use crate::anatomy::fixtures::{PLAIN, Wear, body, roles};
 use crate::axes::Convention;
 use crate::column::Column;
-use crate::markers::Marker;
 
 /// Labels with the offsets of their markers from the table's places in metres, as on skin.
 const SET: [(&str, [f64; 3]); 30] = [
@@ -86,7 +85,7 @@ fn a_skeleton_of_another_size_and_rest_posture_follows_markers() {
         ..PLAIN
     });
     let own = Anatomy::with_roles(&other, &roles(&other)).expect("a body");
-    let fitted = fit(&markers, &other, &own).expect("a fit");
+    let fitted = fit(&markers, &other, &own, None).expect("a fit");
     assert!(fitted.unused.is_empty() && fitted.held == 0);
     assert!((fitted.scale - 1.08).abs() < 0.12, "{}", fitted.scale);
     assert!(fitted.median() < 0.012, "{:?}", fitted.markers);
@@ -126,7 +125,7 @@ fn palms_follow_the_sides_of_the_wrist_markers() {
     let own = Anatomy::with_roles(&other, &roles(&other)).expect("a body");
     for rolled in [-1.5, -0.8, 0.0, 0.8, 1.5] {
         let (markers, truth, anatomy) = capture(1.0, 30, rolled);
-        let fitted = fit(&markers, &other, &own).expect("a fit");
+        let fitted = fit(&markers, &other, &own, None).expect("a fit");
         let off = palms_off(&fitted, &own, &truth, &anatomy);
         assert!(off.iter().all(|it| *it < 10.0), "rolled {rolled}: {off:?}");
         assert_eq!(fitted.unturned, []);
@@ -144,7 +143,7 @@ fn palms_follow_the_sides_of_the_wrist_markers() {
             *markers.space(),
             exchanged.collect(),
         );
-        let turned = fit(&exchanged.expect("a track"), &other, &own).expect("a fit");
+        let turned = fit(&exchanged.expect("a track"), &other, &own, None).expect("a fit");
         let off = palms_off(&turned, &own, &truth, &anatomy);
         let [right, left] = off;
         assert!(left > 150.0 && right < 10.0, "rolled {rolled}: {off:?}");
@@ -172,7 +171,7 @@ fn a_forearm_without_both_wrist_markers_is_reported() {
             *markers.space(),
             points.cloned().collect(),
         );
-        let fitted = fit(&fewer.expect("a track"), &skeleton, &anatomy).expect("a fit");
+        let fitted = fit(&fewer.expect("a track"), &skeleton, &anatomy, None).expect("a fit");
         assert_eq!(fitted.unturned, unturned, "{missing:?}");
     }
 }
@@ -207,7 +206,7 @@ fn the_markers_of_two_people_are_refused_and_a_few_of_another_are_not_used() {
         });
         let points = markers.points().iter().cloned().chain(second).collect();
         let track = Markers::new(markers.times().clone(), *markers.space(), points);
-        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy);
+        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy, None);
         match (fitted, expected) {
             (Ok(fitted), Ok(unused)) => assert_eq!(fitted.unused.len(), unused),
             (Err(FitError::People(names)), Err(second)) => assert_eq!(names, ["Anna", second]),
@@ -227,8 +226,59 @@ fn the_markers_of_two_people_are_refused_and_a_few_of_another_are_not_used() {
         }
     });
     let track = Markers::new(markers.times().clone(), *markers.space(), points.collect());
-    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy, None).expect("a fit");
     assert_eq!(fitted.markers.len(), SET.len());
+}
+
+#[test]
+fn one_of_several_people_is_fitted_by_name() {
+    let (markers, ..) = capture(1.0, 4, 0.0);
+    let skeleton = body(PLAIN);
+    let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+    // The group and prefix of the second person's labels, who stands a metre beside the first, and the name of the person.
+    let cases = [
+        ("", "Ben:", "Ben", "Ben:LSHO"),
+        ("", "Ben_", "Ben", "Ben_LSHO"),
+        ("", "Room:Ben:", "Room:Ben", "Room:Ben:LSHO"),
+        ("Ben", "", "Ben", "Ben:LSHO"),
+        ("", "", "(no name)", "LSHO"),
+    ];
+    for (group, prefix, name, shoulder) in cases {
+        let second = markers.points().iter().zip(SET).map(|(point, (label, _))| {
+            let x = (0..4).map(|frame| point.place[0].value(frame).map_or(f64::NAN, |x| x + 1.0));
+            let x = Column::doubles(x.collect());
+            Marker {
+                group: group.to_owned(),
+                name: format!("{prefix}{label}"),
+                place: vec![x, point.place[1].clone(), point.place[2].clone()],
+                quality: None,
+            }
+        });
+        let points = markers.points().iter().cloned().chain(second).collect();
+        let track = Markers::new(markers.times().clone(), *markers.space(), points);
+        let track = track.expect("a track");
+        let fitted = |subject| fit(&track, &skeleton, &anatomy, subject);
+        let (anna, ben) = (fitted(Some("Anna")), fitted(Some(name)));
+        let (anna, ben) = (anna.expect("a fit"), ben.expect("a fit"));
+        let x = |fitted: &Fitted| fitted.clip.model_pose(2).position(0).x;
+        assert!((x(&ben) - x(&anna) - 1.0).abs() < 0.02, "{name}");
+        assert!(ben.markers.iter().any(|it| it.name == shoulder), "{name}");
+        for fitted in [anna, ben] {
+            assert!(fitted.median() < 0.012 && fitted.unused.is_empty());
+            assert_eq!((fitted.markers.len(), fitted.others), (30, 30), "{name}");
+        }
+        assert_eq!(
+            fitted(Some("Cleo")),
+            Err(FitError::Subject {
+                wanted: "Cleo".to_owned(),
+                known: if name < "Anna" {
+                    vec![name.to_owned(), "Anna".to_owned()]
+                } else {
+                    vec!["Anna".to_owned(), name.to_owned()]
+                },
+            })
+        );
+    }
 }
 
 #[test]
@@ -247,7 +297,7 @@ fn a_wrong_unit_shows_in_the_stature_and_places_at_nought_are_not_seen() {
             Space::World(convention),
             markers.points().to_vec(),
         );
-        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+        let fitted = fit(&track.expect("a track"), &skeleton, &anatomy, None).expect("a fit");
         assert!((fitted.stature / (unit * own) - 1.0).abs() < 0.15);
         assert!((fitted.scale / scale - 1.0).abs() < 0.15);
     }
@@ -269,7 +319,7 @@ fn a_wrong_unit_shows_in_the_stature_and_places_at_nought_are_not_seen() {
         }
     });
     let track = Markers::new(markers.times().clone(), *markers.space(), points.collect());
-    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy).expect("a fit");
+    let fitted = fit(&track.expect("a track"), &skeleton, &anatomy, None).expect("a fit");
     for marker in &fitted.markers {
         let seen = if marker.name.contains(":L") {
             0.75
@@ -300,7 +350,7 @@ fn unknown_labels_gaps_and_films_are_reported() {
         })
         .collect();
     let renamed = Markers::new(markers.times().clone(), *markers.space(), renamed);
-    let few = fit(&renamed.expect("a track"), &skeleton, &anatomy);
+    let few = fit(&renamed.expect("a track"), &skeleton, &anatomy, None);
     assert!(
         matches!(few, Err(FitError::Few { known: 5, .. })),
         "{few:?}"
@@ -314,7 +364,7 @@ fn unknown_labels_gaps_and_films_are_reported() {
         })
         .collect();
     let gaps = Markers::new(markers.times().clone(), *markers.space(), gaps);
-    let gaps = fit(&gaps.expect("a track"), &skeleton, &anatomy);
+    let gaps = fit(&gaps.expect("a track"), &skeleton, &anatomy, None);
     assert!(matches!(gaps, Err(FitError::Gaps(_))), "{gaps:?}");
     assert_eq!(attachment("TakeoMonday:LWRA"), attachment("l.wra"));
     assert_eq!(attachment("CentreOfMass"), None);

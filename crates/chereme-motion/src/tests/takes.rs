@@ -392,7 +392,7 @@ fn golden_skeletons_that_follow_markers() {
     )
     .expect("markers");
     let (skeleton, own) = dressed(PLAIN);
-    let fitted = crate::fit::fit(&markers, &skeleton, &own).expect("a fit");
+    let fitted = crate::fit::fit(&markers, &skeleton, &own, None).expect("a fit");
     put(
         &mut out,
         format!(
