@@ -172,6 +172,20 @@ impl Inventory {
         })
     }
 
+    /// Returns whether every text names a value, and no two of them the same one: aliases such as `upper lip` and
+    /// `lower lip` of `mouth` are not kept apart.
+    #[must_use]
+    pub fn keeps_apart<'t>(&self, texts: impl IntoIterator<Item = &'t str>) -> bool {
+        let mut meant: BTreeMap<&str, &str> = BTreeMap::new();
+        texts.into_iter().all(|text| {
+            let found = self.find(text);
+            found.is_some_and(|value| {
+                let other = meant.insert(&value.id, text.trim());
+                other.is_none_or(|other| other == text.trim())
+            })
+        })
+    }
+
     /// Returns the ids of up to five values that somebody who wrote `text` may have meant, the
     /// likeliest first.
     #[must_use]

@@ -8,7 +8,7 @@ use chereme_formats::Finding;
 use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
 use chereme_formats::table::TableError;
 use chereme_sign::query::Numerals;
-use chereme_sign::text::composed;
+use chereme_sign::text::{composed, fold};
 use chereme_sign::{Component, Inventory, InventoryValue, Reading};
 use serde_json::{Map, Value, json};
 
@@ -22,6 +22,9 @@ use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
+
+/// The number of names of values that a finding lists.
+const SHOWN_NAMES: usize = 8;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let known = job.unchanged();
@@ -53,7 +56,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     report.understood.columns = Some(table.columns.clone());
-    let inventories = store_inventories(job, &table)?;
+    let inventories = store_inventories(job, &table, &mut report)?;
     let before = job
         .places
         .hashed(&job.hash)
@@ -228,8 +231,12 @@ fn is_earlier(job: &Job<'_>, token: &TokenRow) -> Result<bool> {
     Ok(same && notation.is_none_or(|notation| notation.system == "hamnosys"))
 }
 
-/// Stores the values that the table uses, unless an inventory of the corpus already has them all.
-fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<InventoryKey, Known>> {
+/// Stores the values that the table uses, unless an inventory of the corpus already has them all and keeps them apart.
+fn store_inventories(
+    job: &mut Job<'_>,
+    table: &Lexicon,
+    report: &mut FileReport,
+) -> Result<BTreeMap<InventoryKey, Known>> {
     let mut known = BTreeMap::new();
     for used in table.inventories() {
         let part = (used.component, used.feature.clone());
@@ -238,10 +245,14 @@ fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Inve
         };
         let complete = job.inventories.iter().find(|stored| {
             let values = used.values.keys().map(String::as_str);
-            same(&stored.inventory) && stored.inventory.distinguishes(values)
+            same(&stored.inventory) && stored.inventory.keeps_apart(values)
         });
         let (row, inventory) = match complete {
-            Some(stored) => (stored.id, stored.inventory.clone()),
+            Some(stored) => {
+                let texts = used.values.keys().map(String::as_str);
+                report.findings.extend(renamed(&stored.inventory, texts));
+                (stored.id, stored.inventory.clone())
+            }
             None => {
                 let own = own_inventory(&job.stem, &used);
                 let mut stored = job.inventories.iter().map(|it| &it.inventory);
@@ -258,6 +269,30 @@ fn store_inventories(job: &mut Job<'_>, table: &Lexicon) -> Result<BTreeMap<Inve
         known.insert(part, Known { row, values });
     }
     Ok(known)
+}
+
+/// Returns a finding about values that the table calls otherwise than the inventory that has them, if there are some.
+fn renamed<'t>(
+    inventory: &Inventory,
+    texts: impl Iterator<Item = &'t str>,
+) -> Option<ReportFinding> {
+    let renamed = texts.filter_map(|text| {
+        let id = &inventory.find(text)?.id;
+        (fold(id) != fold(text.trim())).then(|| format!("{} = {id}", text.trim()))
+    });
+    let renamed: Vec<String> = renamed.collect();
+    let shown = renamed.iter().take(SHOWN_NAMES).map(String::as_str);
+    let shown = shown.collect::<Vec<_>>().join(", ");
+    let more = match renamed.len().saturating_sub(SHOWN_NAMES) {
+        0 => String::new(),
+        more => format!(", and {more} more"),
+    };
+    (!renamed.is_empty()).then(|| {
+        ReportFinding::note(format!(
+            "the inventory {:?} has other names for values, under which they are stored: {shown}{more}",
+            inventory.id
+        ))
+    })
 }
 
 fn own_inventory(stem: &str, used: &lexicon::Inventory) -> Inventory {

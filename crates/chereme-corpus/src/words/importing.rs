@@ -449,6 +449,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "il a été importé auparavant : ses colonnes ont été relues, comme le dit la correspondance",
     ),
     (
+        "the inventory {id} has other names for values, under which they are stored: {names}, and {n} more",
+        "l’inventaire {id} a d’autres noms pour des valeurs, sous lesquels elles sont enregistrées : {names}, et {n} de plus",
+    ),
+    (
+        "the inventory {id} has other names for values, under which they are stored: {names}",
+        "l’inventaire {id} a d’autres noms pour des valeurs, sous lesquels elles sont enregistrées : {names}",
+    ),
+    (
         "a lexicon is a table with a header row and a column of glosses",
         "un lexique est une table avec une ligne d’en-tête et une colonne de gloses",
     ),

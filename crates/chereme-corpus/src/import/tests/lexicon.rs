@@ -140,6 +140,53 @@ fn a_value_of_a_table_is_not_equal_to_others_by_aliases_of_the_program() {
 }
 
 #[test]
+fn values_that_an_inventory_knows_stay_as_many_as_the_table_has() {
+    let desk = Desk::new();
+    let renamed = "other names for values, under which they are stored: ";
+    // The values of a table's column, all of which the program knows, the queries of each value and the finding.
+    type Case<'t> = (&'t [&'t str], &'t [(&'t str, usize)], Option<&'t str>);
+    let cases: [Case<'_>; 4] = [
+        (
+            &["upper lip", "lower lip", "mouth", "mouth"],
+            &[("\"upper lip\"", 1), ("\"lower lip\"", 1), ("mouth", 2)],
+            None,
+        ),
+        (
+            &["cheekbone", "cheek", "chin"],
+            &[("cheekbone", 1), ("cheek", 1), ("chin", 1)],
+            None,
+        ),
+        (
+            &["upper lip", "cheek", "throat"],
+            &[("mouth", 1), ("cheek", 1), ("neck", 1)],
+            Some("throat = neck, upper lip = mouth"),
+        ),
+        (&["mouth", "Cheek"], &[("mouth", 1), ("cheek", 1)], None),
+    ];
+    for (at, (values, queries, finding)) in cases.into_iter().enumerate() {
+        let mut corpus = desk.corpus(&format!("{at}.chereme"));
+        let rows = values.iter().enumerate();
+        let rows: String = rows
+            .map(|(row, value)| format!("G{row}\t{value}\n"))
+            .collect();
+        let table = desk.file(&format!("{at}.tsv"), &format!("gloss\tLocation\n{rows}"));
+        let report = import(&mut corpus, &table, "{}");
+        for (value, wanted) in queries {
+            assert_eq!(
+                total(&mut corpus, &format!("placement=={value}")),
+                *wanted,
+                "{at} {value}"
+            );
+        }
+        let messages = report.findings.iter().map(|it| it.message.as_str());
+        let found = messages
+            .filter_map(|it| Some(it.split_once(renamed)?.1))
+            .next();
+        assert_eq!(found, finding, "{:?}", report.findings);
+    }
+}
+
+#[test]
 fn numbers_of_a_column_are_read_by_what_its_commas_mean() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
