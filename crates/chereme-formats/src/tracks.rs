@@ -42,6 +42,15 @@ pub enum Content {
     Curves(Curves),
 }
 
+/// Returns the finding that the caller's rate of a film is taken instead of that of its file.
+#[must_use]
+pub fn another_rate(stated: Rate, taken: Rate) -> Finding {
+    Finding::warning(
+        None,
+        format!("the file states {stated}; the rate that was asked for is taken: {taken}"),
+    )
+}
+
 impl FileTrack {
     /// Returns a track that begins with its file.
     #[must_use]

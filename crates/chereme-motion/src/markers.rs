@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use crate::axes::Convention;
 use crate::column::Column;
 use crate::curves::{TrackError, check_names, frames_of};
-use crate::time::{Instant, Span};
+use crate::time::{Instant, Rate, Span};
 use crate::times::Times;
 
 /// The space of a file's positions.
@@ -208,6 +208,15 @@ impl Markers {
         Self { capture, ..self }
     }
 
+    /// Returns the track with its frames at another rate.
+    #[must_use]
+    pub fn at_rate(self, rate: Rate) -> Self {
+        Self {
+            times: Times::Even(rate),
+            ..self
+        }
+    }
+
     /// Returns the track with a note of the meaning of its `quality` columns.
     #[must_use]
     pub fn rated(self, quality: Quality) -> Self {
@@ -300,7 +309,6 @@ impl Markers {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::time::Rate;
 
     fn times() -> Times {
         Times::Even(Rate::new(50, 1).expect("a rate"))
@@ -335,6 +343,8 @@ mod tests {
             markers.shown(2)
         );
         assert_eq!(markers.span().micros(), 60_000);
+        let slower = markers.at_rate(Rate::new(25, 1).expect("a rate"));
+        assert_eq!(slower.span().micros(), 120_000);
     }
 
     #[test]

@@ -6,9 +6,9 @@ use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::table::annotations;
-use chereme_formats::tracks::{Content, Tracks};
+use chereme_formats::tracks::{Content, Tracks, another_rate};
 use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
-use chereme_motion::{Anatomy, Convention, Skeleton};
+use chereme_motion::{Anatomy, Capture, Convention, Rate, Skeleton};
 use chereme_sign::{Choice, Remedy};
 
 use super::readers::Parse;
@@ -23,7 +23,7 @@ use crate::db::recordings::MotionTrackRow;
 use crate::error::{Error, Result};
 use crate::movement;
 use crate::progress::Progress;
-use crate::track::{NewTrack, SkeletonTrack, Track, store};
+use crate::track::{NewTrack, SkeletonTrack, Track, TrackKind, store};
 
 /// The number of bytes that are enough to see whether a table or JSON document holds curves.
 const HEAD: usize = 1 << 14;
@@ -342,14 +342,63 @@ pub(super) fn import_tracks(
     read: Parse<Tracks>,
 ) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
-        return Ok(report);
+        return with_kept_rate(job, report);
     }
     let bytes = job.bytes()?;
     job.report_progress(progress)?;
     let damaged = |why| Error::wrong(why).advise(DAMAGED);
-    let (document, findings) = read(&bytes).map_err(damaged)?;
+    let (mut document, mut findings) = read(&bytes).map_err(damaged)?;
+    if let Some(rate) = job.options.rate {
+        findings.extend(set_rate(&mut document, rate));
+    }
     job.report_progress(progress)?;
     keep_take(job, document, findings, progress)
+}
+
+/// Gives the points from film of a document another rate; other contents keep that of their file. Returns what to say.
+fn set_rate(document: &mut Tracks, rate: Rate) -> Option<Finding> {
+    let mut found = None;
+    for track in &mut document.tracks {
+        let Content::Markers(markers) = &mut track.content else {
+            continue;
+        };
+        let Some(stated) = markers.times().rate().filter(|stated| *stated != rate) else {
+            continue;
+        };
+        if markers.capture() == Capture::Estimated {
+            *markers = markers.clone().at_rate(rate);
+            found = Some(another_rate(stated, rate));
+        } else {
+            found = found.or_else(|| Some(kept_rate(stated)));
+        }
+    }
+    found
+}
+
+fn kept_rate(stated: Rate) -> Finding {
+    Finding::note(
+        None,
+        format!("the file states {stated}, which stays: only points from film take another rate"),
+    )
+}
+
+/// Adds to the report of a file that was imported before that its points keep their rate, if another one is wanted.
+pub(super) fn with_kept_rate(job: &Job<'_>, mut report: FileReport) -> Result<FileReport> {
+    let (Some(rate), Some(recording)) = (job.options.rate, job.again) else {
+        return Ok(report);
+    };
+    let rows = crate::db::tracks::tracks(job.connection, recording)?;
+    let of_points = rows.iter().filter(|row| row.kind == TrackKind::Markers);
+    let kept = of_points.filter_map(|row| row.rate).find(|it| *it != rate);
+    if let Some(kept) = kept {
+        report.findings.push(ReportFinding::warning(
+            format!("it was imported before with {kept}, and its points keep that rate"),
+            Remedy::command(
+                "undo the earlier import, and import it again with --rate, such as --rate 50",
+            ),
+        ));
+    }
+    Ok(report)
 }
 
 /// Stores the tracks and events of a document.
@@ -394,4 +443,48 @@ fn add_events(
         ));
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_formats::tracks::FileTrack;
+    use chereme_motion::{Column, Marker, Markers, Space, Times};
+
+    use super::*;
+
+    #[test]
+    fn points_from_film_take_the_rate_that_is_asked_for_and_measured_ones_keep_theirs() {
+        let rate = |frames: u32| Rate::new(frames, 1).expect("a rate");
+        let cases = [
+            (Capture::Estimated, 25, 25, ""),
+            (
+                Capture::Estimated,
+                50,
+                50,
+                "the file states 25 fps; the rate",
+            ),
+            (
+                Capture::Measured,
+                50,
+                25,
+                "the file states 25 fps, which stays",
+            ),
+        ];
+        for (capture, asked, expected, start) in cases {
+            let point = Marker::new("WRIST", vec![Column::singles(vec![1.0; 4]); 3]);
+            let space = Space::World(Convention::MODEL);
+            let markers = Markers::new(Times::Even(rate(25)), space, vec![point]);
+            let markers = markers.expect("markers").captured(capture);
+            let mut document = Tracks::default();
+            let track = FileTrack::new("landmarks", Content::Markers(markers));
+            document.tracks.push(track);
+            let found = set_rate(&mut document, rate(asked));
+            let message = found.map_or(String::new(), |it| it.message);
+            assert!(message.starts_with(start) && message.is_empty() == start.is_empty());
+            let Content::Markers(markers) = &document.tracks[0].content else {
+                panic!("no markers");
+            };
+            assert_eq!(markers.times().rate(), Some(rate(expected)), "{message}");
+        }
+    }
 }

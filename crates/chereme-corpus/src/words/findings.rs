@@ -7,6 +7,22 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "le fichier ne dit pas la cadence du film ; {n} images par seconde sont prises",
     ),
     (
+        "the file states {rate}; the rate that was asked for is taken: {taken}",
+        "le fichier indique {rate} ; la cadence demandée est prise : {taken}",
+    ),
+    (
+        "the file states {rate}, which stays: only points from film take another rate",
+        "le fichier indique {rate}, qui reste : seuls les points d’un film prennent une autre cadence",
+    ),
+    (
+        "it was imported before with {rate}, and its points keep that rate",
+        "il a été importé auparavant avec {rate}, et ses points gardent cette cadence",
+    ),
+    (
+        "undo the earlier import, and import it again with --rate, such as --rate 50",
+        "annulez l’importation précédente, et importez-le de nouveau avec --rate, comme --rate 50",
+    ),
+    (
         "import it with --rate, such as --rate 50 or --rate 30000/1001",
         "importez-le avec --rate, comme --rate 50 ou --rate 30000/1001",
     ),

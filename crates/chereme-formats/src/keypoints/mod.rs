@@ -26,7 +26,7 @@ use serde_json::{Map, Value};
 
 use crate::finding::Finding;
 use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks};
+use crate::tracks::{Content, FileTrack, Tracks, another_rate};
 use cloud::{Cloud, Point, PointSpace};
 
 /// Frames a second if neither the file nor the caller has a rate.
@@ -238,7 +238,13 @@ impl Reader {
 
     /// Returns the rate that the caller states, else that of the frames' times, else the usual one.
     fn rate(&mut self, known: Option<Rate>) -> Result<Rate, Error> {
-        if let Some(rate) = known.or_else(|| stated(&self.millis)) {
+        let stated = stated(&self.millis);
+        if let (Some(known), Some(stated)) = (known, stated)
+            && known != stated
+        {
+            self.findings.push(another_rate(stated, known));
+        }
+        if let Some(rate) = known.or(stated) {
             return Ok(rate);
         }
         self.findings.push(

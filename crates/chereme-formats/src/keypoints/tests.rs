@@ -107,6 +107,15 @@ fn landmarks_of_mediapipe_are_shares_of_the_picture_and_metres() {
           {{\"timestampMs\":40,\"poseLandmarks\":[{marks}]}}]"
     );
     assert!(is_keypoints(text.as_bytes()));
+    for (asked, reported) in [(25, 0), (50, 1)] {
+        let mut reader = Reader::default();
+        reader.push(None, text.as_bytes()).expect("read");
+        let rate = chereme_motion::Rate::new(asked, 1).expect("a rate");
+        let (tracks, findings) = reader.finish(Some(rate)).expect("points");
+        assert_eq!(points(&tracks.tracks[0]).times().rate(), Some(rate));
+        let found = findings.iter().filter(|it| it.message.contains("25 fps"));
+        assert_eq!(found.count(), reported, "{findings:?}");
+    }
     let mut reader = Reader::default();
     reader.push(None, text.as_bytes()).expect("read");
     let (tracks, findings) = reader.finish(None).expect("points");

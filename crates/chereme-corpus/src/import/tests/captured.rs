@@ -13,6 +13,29 @@ const GRID: &str =
     "\"ooTextFile\" \"TextGrid\" 0 1 <exists> 1 \"IntervalTier\" \"Gloss\" 0 1 1 0 1 \"CHAT\"";
 
 #[test]
+fn points_that_were_imported_before_report_that_they_keep_their_rate() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let numbers = vec!["100,200,0.9"; 25].join(",");
+    let frame = format!("{{\"version\":1.3,\"people\":[{{\"pose_keypoints_2d\":[{numbers}]}}]}}");
+    let first = desk.file("take_000000000000_keypoints.json", &frame);
+    desk.file("take_000000000001_keypoints.json", &frame);
+    let message = "it was imported before with 25 fps, and its points keep that rate";
+    for (rate, expected) in [(None, 0), (None, 0), (Some(25), 0), (Some(50), 1)] {
+        let options = ImportOptions {
+            rate: rate.map(|rate| chereme_motion::Rate::new(rate, 1).expect("a rate")),
+            ..ImportOptions::default()
+        };
+        let mut hear = unheard;
+        let paths = std::slice::from_ref(&first);
+        let report = corpus.import(paths, &options, &mut Progress::new(&mut hear));
+        let report = report.expect("imported").files.remove(0);
+        let found = report.findings.iter().filter(|it| it.message == message);
+        assert_eq!(found.count(), expected, "{rate:?} {:?}", report.findings);
+    }
+}
+
+#[test]
 fn markers_faces_and_tiers_of_one_take_share_a_recording() {
     let folder = tempfile::tempdir().expect("a folder");
     let inbox = folder.path().join("in");
