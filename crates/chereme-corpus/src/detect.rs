@@ -22,8 +22,10 @@ use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 use crate::propose::{ProposeScope, proposal_tier};
 
-/// The part of a recording that is examined, in microseconds from its start: two hours.
-pub(crate) const LONGEST: i64 = 7_200_000_000;
+/// The length of movement that is examined at once, in microseconds: two hours.
+const PIECE: i64 = 7_200_000_000;
+/// The time before and after such a piece that is read with it, in microseconds.
+const AROUND: i64 = 10_000_000;
 
 /// Options of a detection: the detector, and the recordings.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -108,7 +110,7 @@ impl Corpus {
     ///
     /// Each is an annotation by a detector ([`AnnotationOrigin::Detector`]) with its confidence. Earlier proposals on
     /// the tiers of its fields that nobody has changed are replaced, even if nothing is found there any more; annotations of
-    /// people stay. All of it is one operation, which one undo reverts. Two hours of a recording are examined.
+    /// people stay. All of it is one operation, which one undo reverts. Movement is examined in pieces of two hours.
     ///
     /// # Errors
     /// [`Error::Stopped`] if `progress` asks to stop before anything is written. Fails if there is no such detector,
@@ -216,36 +218,93 @@ pub(crate) fn proposals(
         (false, false) => &[],
     };
     let moves = !groups.is_empty() && recordings::body_track(connection, row.id)?.is_some();
-    let body = if moves {
-        let track = MotionTrack::of(connection, row.id)?;
-        let wanted = Span::between(
-            Instant::from_micros(track.row.offset_us),
-            Instant::from_micros(track.row.offset_us.saturating_add(LONGEST)),
-        );
-        let clip = track.clip(connection, track.frames_in(wanted), groups)?;
-        let start = Instant::from_micros(track.row.offset_us);
-        Some((clip, track.anatomy(connection)?, start))
-    } else {
-        None
-    };
     let face = match examines(Part::Face) {
         true => FaceCurves::read(connection, row)?,
         false => None,
     };
-    if body.is_none() && face.is_none() {
+    if !moves && face.is_none() {
         return Ok(None);
     }
-    let observed = Observed {
-        body: body.as_ref().map(|(clip, anatomy, start)| Body {
-            clip,
-            anatomy,
-            start: *start,
+    let face = face.as_ref();
+    let found = match moves {
+        true => {
+            let track = MotionTrack::of(connection, row.id)?;
+            in_pieces(
+                connection,
+                detector,
+                (&track, groups),
+                face,
+                (PIECE, AROUND),
+            )?
+        }
+        false => detector.detect(&Observed {
+            body: None,
+            face: face.map(FaceCurves::curves),
         }),
-        face: face.as_ref().map(FaceCurves::curves),
     };
-    let found = detector.detect(&observed).into_iter();
+    let found = found.into_iter();
     let found = found.map(|it| Proposal::new(it, row.duration_us));
     Ok(Some(found.filter(|it| it.end_us > it.start_us).collect()))
+}
+
+/// Returns the detections in a movement, field by field in order of time, which is examined in pieces of so many
+/// microseconds, each with some time around it; each detection belongs to the piece in which it starts.
+fn in_pieces(
+    connection: &Connection,
+    detector: &dyn Detector,
+    (track, groups): (&MotionTrack, &[ChannelGroup]),
+    face: Option<&FaceCurves>,
+    (piece, around): (i64, i64),
+) -> Result<Vec<Detection>> {
+    let anatomy = track.anatomy(connection)?;
+    let first = track.row.offset_us;
+    let at = |micros: i64| Instant::from_micros(first.saturating_add(micros));
+    let length = track.rate.instant(track.frames()).micros();
+    let mut all: Vec<Detection> = Vec::new();
+    let mut start = 0;
+    loop {
+        let end = start + piece;
+        let is_last = end >= length;
+        let wanted = match (start, is_last) {
+            (0, _) => at(0),
+            _ => at(start - around),
+        };
+        let frames = track.frames_in(Span::between(wanted, at(end + around)));
+        let frames = match is_last {
+            true => frames.start..track.frames(),
+            false => frames,
+        };
+        let begins = at(track.rate.instant(frames.start).micros());
+        let clip = track.clip(connection, frames, groups)?;
+        let found = detector.detect(&Observed {
+            body: Some(Body {
+                clip: &clip,
+                anatomy: &anatomy,
+                start: begins,
+            }),
+            face: face.map(FaceCurves::curves),
+        });
+        let own = |it: &Detection| {
+            let from = it.span.start();
+            (start == 0 || from >= at(start)) && (is_last || from < at(end))
+        };
+        for it in found.into_iter().filter(own) {
+            let is_known =
+                |known: &Detection| known.field == it.field && known.span.end() > it.span.start();
+            let is_near = start > 0 && it.span.start() < at(start + around);
+            if !is_near || !all.iter().any(is_known) {
+                all.push(it);
+            }
+        }
+        if is_last {
+            if start > 0 {
+                let fields = detector.fields();
+                all.sort_by_key(|it| fields.iter().position(|field| *field == it.field));
+            }
+            return Ok(all);
+        }
+        start = end;
+    }
 }
 
 /// Returns the error for a recording without any part that a detector examines.
@@ -338,4 +397,49 @@ fn addition(recording: i64, proposal: &Proposal) -> AnnotationChange {
         confidence: Some(proposal.confidence),
     }
     .into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ImportOptions, starter_files, unheard};
+
+    #[test]
+    fn movement_in_pieces_has_the_detections_of_the_whole() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (_, bytes) = starter_files()
+            .find(|(file, _)| file.ends_with("phrase.bvh"))
+            .expect("a starter capture");
+        let path = folder.path().join("phrase.bvh");
+        std::fs::write(&path, bytes).expect("written");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = unheard;
+        let options = ImportOptions::default();
+        corpus
+            .import(&[path], &options, &mut Progress::new(&mut hear))
+            .expect("taken in");
+        let connection = corpus.store.read();
+        let track = MotionTrack::of(connection, 1).expect("a track");
+        let strokes = detector("strokes").expect("a detector");
+        let found = |piece: i64, around: i64| {
+            let groups = [ChannelGroup::RightArm, ChannelGroup::LeftArm];
+            let of = (&track, &groups[..]);
+            in_pieces(connection, strokes, of, None, (piece, around)).expect("examined")
+        };
+        let whole = found(PIECE, AROUND);
+        assert!(whole.len() > 4, "{whole:?}");
+        assert_eq!(found(2_000_000, AROUND), whole);
+        let parts = found(3_000_000, 2_000_000);
+        let facts = |all: &[Detection]| -> Vec<(String, String)> {
+            let facts = all
+                .iter()
+                .map(|it| (it.field.to_string(), it.value.clone()));
+            facts.collect()
+        };
+        assert_eq!(facts(&parts), facts(&whole));
+        for (part, whole) in parts.iter().zip(&whole) {
+            let off = part.span.start().micros() - whole.span.start().micros();
+            assert!(off.abs() < 100_000, "{part:?} {whole:?}");
+        }
+    }
 }

@@ -24,6 +24,8 @@ use crate::progress::{Progress, Step, Unit};
 pub(crate) const RATE: f64 = 30.0;
 /// The time that is read before and after the requested moments, in microseconds.
 const AROUND: i64 = 200_000;
+/// The part of a frame by which a moment may come after the last one, as moments are rounded.
+const NEAR_FRAME: f64 = 0.01;
 /// The largest number of frames of a performance that can be compared.
 const LONGEST: usize = 3_600;
 
@@ -408,6 +410,12 @@ pub(crate) fn numbers(
     Ok(Some(channels.iter().map(column).collect()))
 }
 
+/// Returns whether a movement was captured at a moment: a frame lasts until the next one.
+fn is_captured_at(track: &MotionTrack, at: Instant) -> bool {
+    let own = at.shifted(-track.row.offset_us).seconds() * track.rate.per_second();
+    own > -0.5 && own < track.frames() as f64 + NEAR_FRAME
+}
+
 /// Returns the frame of a track within a span that is nearest to a moment.
 fn nearest(track: &MotionTrack, frames: &Range<usize>, at: Instant) -> usize {
     let own = at.shifted(-track.row.offset_us).seconds() * track.rate.per_second();
@@ -415,7 +423,7 @@ fn nearest(track: &MotionTrack, frames: &Range<usize>, at: Instant) -> usize {
     (own.round().max(0.0) as usize).clamp(frames.start, last)
 }
 
-/// Returns the rotations of head and trunk of a skeleton at moments.
+/// Returns the rotations of head and trunk of a skeleton at moments; no numbers before its first frame and after its last.
 fn turns(
     connection: &Connection,
     track: &MotionTrack,
@@ -430,7 +438,10 @@ fn turns(
     let clip = track.clip(connection, frames.clone(), &groups)?;
     let all = head::of_clip(&clip, &track.anatomy(connection)?);
     let at_moments = |all: Vec<[f64; 3]>| {
-        let at = |at: &Instant| all[nearest(track, &frames, *at) - frames.start];
+        let at = |at: &Instant| match is_captured_at(track, *at) {
+            true => all[nearest(track, &frames, *at) - frames.start],
+            false => [f64::NAN; 3],
+        };
         moments.iter().map(at).collect()
     };
     Ok(Turns {

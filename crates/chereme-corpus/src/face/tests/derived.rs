@@ -399,3 +399,68 @@ fn peaks_of_one_row_and_late_ones_are_found_and_runs_count_within_the_token() {
         [""; 0]
     );
 }
+
+/// Writes a face of 12 s at 60 frames a second, whose brows rise again and again.
+fn write_long_face(path: &Path) {
+    let mut text = String::from("time [s],brow_raise_right,brow_raise_left,jaw_open\n");
+    for frame in 0..720 {
+        let seconds = f64::from(frame) / 60.0;
+        let up = (seconds * 2.0).sin().max(0.0);
+        writeln!(text, "{seconds:.6},{up:.6},{up:.6},0.1").expect("text");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+#[test]
+fn a_skeletons_head_is_not_held_where_the_face_lasts_longer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let (_, bytes) = crate::starter_files()
+        .find(|(file, _)| file.ends_with("phrase.bvh"))
+        .expect("a starter capture");
+    let movement = folder.path().join("phrase.bvh");
+    std::fs::write(&movement, bytes).expect("written");
+    let face = folder.path().join("phrase.csv");
+    write_long_face(&face);
+    let mut hear = unheard;
+    let options = ImportOptions::default();
+    corpus
+        .import(&[movement, face], &options, &mut Progress::new(&mut hear))
+        .expect("imported");
+    let connection = corpus.store.read();
+    let fits = super::Fits::of(connection).expect("fits");
+    // The capture of the body ends after 6.37 s, that of the face after 12 s.
+    let moments: Vec<Instant> = [1000, 6000, 6360, 6500, 9000, 13_000]
+        .map(Instant::from_millis)
+        .to_vec();
+    let found = super::performances::numbers(connection, 1, &moments, &[0, 3], &fits);
+    let found = found.expect("read").expect("a face");
+    let known = |channel: usize| -> Vec<bool> {
+        let numbers = found[channel].as_ref().expect("a channel");
+        numbers.iter().map(|it| it.is_finite()).collect()
+    };
+    assert_eq!(known(0), [true, true, true, false, false, false]);
+    assert_eq!(known(1), [true, true, true, true, true, false]);
+}
+
+#[test]
+fn curves_that_are_read_in_pieces_are_those_of_the_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("made");
+    let face = folder.path().join("long.csv");
+    write_long_face(&face);
+    import(&mut corpus, &face);
+    let connection = corpus.store.read();
+    let row = crate::address::recording(connection, &Name::Number(1)).expect("a recording");
+    let read = |piece: usize| {
+        let curves = super::propose::FaceCurves::in_pieces(connection, &row, piece);
+        let curves = curves.expect("read").expect("a face");
+        let brow = curves.curves().brow_raise[0].expect("a brow").to_vec();
+        (brow, curves.curves().head_yaw.is_some())
+    };
+    let whole = read(432_000);
+    assert_eq!(whole.0.len(), 720);
+    for piece in [1, 100, 719, 720] {
+        assert_eq!(read(piece), whole, "{piece}");
+    }
+}
