@@ -58,6 +58,8 @@ pub struct Proposed {
     pub unread: u64,
     /// The recordings, in order.
     pub recordings: Vec<String>,
+    /// Notes on what is not proposed.
+    pub findings: Vec<String>,
 }
 
 impl Proposed {
@@ -143,6 +145,7 @@ impl Corpus {
         }
         let mut report = Proposed::default();
         let mut values = Values::new();
+        let mut unseen: BTreeSet<String> = BTreeSet::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
             progress.report(Step {
@@ -151,7 +154,7 @@ impl Corpus {
                 total,
                 unit: Unit::Items,
             })?;
-            match self.read(components, hit, progress) {
+            match self.read(components, hit, &mut unseen, progress) {
                 Ok(Some(read)) => {
                     report.tokens += 1;
                     let recording = hit.recording.clone().unwrap_or_default();
@@ -163,6 +166,13 @@ impl Corpus {
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Ok(None) | Err(_) => report.unread += 1,
             }
+        }
+        if !unseen.is_empty() {
+            let names: Vec<&str> = unseen.iter().map(String::as_str).collect();
+            report.findings.push(format!(
+                "handshapes are not proposed where fingers rest throughout, as nobody captured them: {}",
+                names.join(", ")
+            ));
         }
         let (new, changes) = self.changes(values)?;
         report.annotations = changes.len() as u64;
@@ -219,25 +229,28 @@ impl Corpus {
         Ok(found.hits.into_iter().filter(is_in).collect())
     }
 
-    /// Returns the values of components read from a token's movement, for each hand in order of time.
+    /// Returns the values of components read from a token's movement, for each hand in order of time. A recording whose
+    /// handshapes were not captured is added to `unseen`.
     fn read(
         &self,
         components: &BTreeSet<Component>,
         hit: &Hit,
+        unseen: &mut BTreeSet<String>,
         progress: &mut Progress<'_>,
     ) -> Result<Option<Vec<(Subject, Value)>>> {
         let Some((start, end)) = hit.start_us.zip(hit.end_us) else {
             return Ok(None);
         };
-        if hit.recording.is_none() {
+        let Some(recording) = &hit.recording else {
             return Ok(None);
-        }
+        };
         let address = Address::Token(hit.token);
         let written = self.transcribe(&address, progress)?;
         let features = written.features;
         let inventories = self.inventories_now()?;
         let stretch = crate::address::stretch(self.store.read(), &address)?;
-        let left_handed = self.dominant(&stretch)? == Side::Left;
+        let dominant = self.dominant(&stretch)?;
+        let left_handed = dominant == Side::Left;
         let mapper = Mapper::new(inventories.iter().map(|stored| &stored.inventory))
             .of_left_handed(left_handed);
         let sign = Notated {
@@ -253,12 +266,22 @@ impl Corpus {
             if !components.contains(&field.component) || !whole {
                 continue;
             }
+            let hand = field.hand.unwrap_or(HandRef::Dominant);
+            let side = match hand {
+                HandRef::Right => Side::Right,
+                HandRef::Left => Side::Left,
+                HandRef::Dominant => dominant,
+                HandRef::Weak => dominant.other(),
+            };
+            if field.component == Component::Configuration && written.assumed.contains(&side) {
+                unseen.insert(recording.clone());
+                continue;
+            }
             let order = match field.phase {
                 None | Some(Phase::Initial) => 0,
                 Some(Phase::Middle(place)) => 1 + u32::from(place),
                 Some(Phase::Final) => u32::MAX,
             };
-            let hand = field.hand.unwrap_or(HandRef::Dominant);
             let subject = (field.component, field.feature, hand);
             subjects
                 .entry(subject)

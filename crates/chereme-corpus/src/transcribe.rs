@@ -49,6 +49,10 @@ pub struct Transcribed {
     pub stages: Vec<TranscribedStage>,
     /// The features found, in the order of the notation.
     pub features: Vec<TranscribedFeature>,
+    /// The hands whose handshape was not captured, as their fingers rest throughout the recording: the notation has one
+    /// because it needs one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed: Vec<Side>,
     /// Findings: features without a reading, and those that HamNoSys has no symbols for.
     pub findings: Vec<String>,
 }
@@ -167,6 +171,12 @@ impl Corpus {
         let mut findings = written.findings;
         findings.extend(printed.losses.iter().map(|loss| loss.message.clone()));
         findings.extend(corrected(&hands));
+        let assumed = crate::hands::resting(connection, &self.hands, &stretch.recording)?;
+        findings.extend(assumed.iter().map(|side| assumption(*side)));
+        let is_seen = |feature: &Feature| {
+            feature.kind != FeatureKind::Handshape
+                || !assumed.contains(&feature.hand.unwrap_or(dominant))
+        };
         let at = |frame: usize| clip.rate().instant(frames.start + frame).micros();
         let (first, end) = written.frames;
         Ok(Transcribed {
@@ -188,9 +198,11 @@ impl Corpus {
             features: written
                 .features
                 .into_iter()
+                .filter(is_seen)
                 .map(|feature| placed(feature, &at))
                 .collect::<Result<_>>()?,
             sign: written.sign,
+            assumed,
             findings,
         })
     }
@@ -256,6 +268,15 @@ impl Corpus {
         let left = signer.is_some_and(|it| it.handedness.as_deref() == Some("left"));
         Ok(if left { Side::Left } else { Side::Right })
     }
+}
+
+/// Returns the finding about a hand whose fingers nobody captured.
+fn assumption(side: Side) -> String {
+    format!(
+        "the fingers of the {} hand rest throughout the recording, so its handshape was not captured: the notated one is \
+         an assumption",
+        side.name()
+    )
 }
 
 /// Returns a finding about the correction of finger angles, if it is large.

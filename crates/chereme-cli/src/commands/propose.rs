@@ -112,6 +112,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.counted(proposed.tokens, "tokens"),
         output.counted(proposed.unread, "tokens"),
     ))?;
+    for finding in &proposed.findings {
+        output.warn(finding)?;
+    }
     output.document(proposed)
 }
 

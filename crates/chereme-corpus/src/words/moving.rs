@@ -592,6 +592,18 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "la notation ne se garde pas : {why}",
     ),
     (
+        "the fingers of the right hand rest throughout the recording, so its handshape was not captured: the notated one is an assumption",
+        "les doigts de la main droite restent au repos dans tout l’enregistrement ; sa configuration n’a donc pas été captée : celle de la notation est supposée",
+    ),
+    (
+        "the fingers of the left hand rest throughout the recording, so its handshape was not captured: the notated one is an assumption",
+        "les doigts de la main gauche restent au repos dans tout l’enregistrement ; sa configuration n’a donc pas été captée : celle de la notation est supposée",
+    ),
+    (
+        "handshapes are not proposed where fingers rest throughout, as nobody captured them: {names}",
+        "les configurations ne sont pas proposées là où les doigts restent au repos, car personne ne les a captées : {names}",
+    ),
+    (
         "finger angles count from the straightest posture in this signer's takes, which is up to {n} degrees bent",
         "les angles des doigts se comptent depuis la posture la plus droite des prises de ce signeur, qui est pliée jusqu’à {n} degrés",
     ),
