@@ -405,6 +405,11 @@ fn meaningless_files_are_refused() {
             "line 18: the frame time is -0.01",
         ),
         (
+            "frame time of many digits",
+            good("0.01", &format!("-{}", "1".repeat(309))).into(),
+            "line 18: the frame time is -111111111111111111111111111111111111111…; give",
+        ),
+        (
             "one frame said, two there",
             tiny("1\n2\n")
                 .replace("Frames: 2\nFrame Time: 0.01", "Frames: 1")

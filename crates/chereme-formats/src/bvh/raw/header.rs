@@ -25,7 +25,7 @@ impl Header {
         if self.is_timed() {
             return Ok(());
         }
-        let found = self.frame_time.as_ref().map(Number::to_string);
+        let found = self.frame_time.as_ref().map(short);
         Err(BvhErrorKind::NoFrameTime { found }.at(self.frame_time_line))
     }
 
@@ -38,25 +38,24 @@ impl Header {
     fn check(&self, oddities: &mut Oddities) -> Result<(), BvhError> {
         match &self.frame_time {
             Some(time) if time.to_f64() > 1.0 => {
-                oddities.note(
-                    Oddity::LongFrameTime,
-                    self.frame_time_line,
-                    time.to_string(),
-                );
+                oddities.note(Oddity::LongFrameTime, self.frame_time_line, short(time));
             }
             _ if self.is_timed() => {}
             time => {
                 if self.declared_frames.is_some_and(|frames| frames > 1) {
                     self.check_timed()?;
                 }
-                let found = time
-                    .as_ref()
-                    .map_or_else(|| "missing".to_owned(), Number::to_string);
+                let found = time.as_ref().map_or_else(|| "missing".to_owned(), short);
                 oddities.note(Oddity::NoFrameTime, self.frame_time_line, found);
             }
         }
         Ok(())
     }
+}
+
+/// Returns a number as a message shows it.
+fn short(number: &Number) -> String {
+    shown(number.to_string().as_bytes())
 }
 
 /// Reads the header after the word MOTION, up to the first number of the first row.
