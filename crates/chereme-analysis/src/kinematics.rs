@@ -98,7 +98,7 @@ fn chains(clip: &Clip, anatomy: &Anatomy, side: Side, wrist: usize) -> Vec<Chain
         let above = skeleton.ancestors(end);
         let mut joints: Vec<usize> = above.take_while(|&joint| joint != wrist).collect();
         joints.reverse();
-        let tip = skeleton.joint(end).tip.unwrap_or_default();
+        let tip = anatomy.tip(skeleton, end).unwrap_or_default();
         let bones = joints
             .iter()
             .map(|&joint| skeleton.joint(joint).offset.length());

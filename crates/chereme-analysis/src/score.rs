@@ -20,7 +20,6 @@ use std::ops::Range;
 use chereme_motion::anatomy::BodyFrame;
 use chereme_motion::{Anatomy, Clip, HandAngles, ModelPose, Part, Rate, Side};
 use chereme_sign::Component;
-use glam::DVec3;
 use serde::{Deserialize, Serialize};
 
 use crate::dtw::{self, Alignment, CostMethod, DtwError, Series};
@@ -184,7 +183,7 @@ pub fn score_as(
     let (query, reference) = (series(&first)?, series(&second)?);
     let aligned = dtw::align(&query, &reference, &options.dtw)?;
     let pairs = pairs_of(a, b);
-    let largest = largest_error(a.0, b.0, &pairs, &aligned.path);
+    let largest = largest_error(a, b, &pairs, &aligned.path);
     let name = |clip: &Clip, joint: usize| clip.skeleton().joint(joint).name.clone();
     let unpaired = |clip: &Clip, used: &dyn Fn(usize) -> bool| {
         (0..clip.skeleton().len())
@@ -407,10 +406,11 @@ fn pairs_of(a: (&Clip, &Anatomy), b: (&Clip, &Anatomy)) -> Vec<(usize, usize)> {
         .collect()
 }
 
-/// Returns the largest distance of paired joints or tips, with the first clip's joint and frames.
+/// Returns the largest distance of paired joints or tips, with the first clip's joint and frames. Tips of fingers that
+/// point elsewhere than their fingers are turned first; a pair with a tip without a length is left out.
 fn largest_error(
-    a: &Clip,
-    b: &Clip,
+    (a, of_a): (&Clip, &Anatomy),
+    (b, of_b): (&Clip, &Anatomy),
     pairs: &[(usize, usize)],
     path: &[(usize, usize)],
 ) -> Option<(f64, usize, (usize, usize))> {
@@ -421,15 +421,19 @@ fn largest_error(
     } else {
         path
     };
+    let ended = pairs.iter().map(|&(left, right)| {
+        let tips = (of_a.tip(a.skeleton(), left), of_b.tip(b.skeleton(), right));
+        ((left, right), tips)
+    });
+    let ended: Vec<_> = ended.collect();
     let (mut first, mut second) = (Walker::new(a), Walker::new(b));
     let mut largest: Option<(f64, usize, (usize, usize))> = None;
     for &(i, j) in path {
         let (x, y) = (first.at(i), second.at(j));
-        for &(left, right) in pairs {
+        for &((left, right), tips) in &ended {
             let mut error = x.position(left).distance(y.position(right));
-            let tips = (x.tip(a.skeleton(), left), y.tip(b.skeleton(), right));
-            if let (Some(left), Some(right)) = tips {
-                error = error.max(DVec3::distance(left, right));
+            if let (Some(tip), Some(other)) = tips {
+                error = error.max(x.point(left, tip).distance(y.point(right, other)));
             }
             if largest.is_none_or(|(most, ..)| error > most) {
                 largest = Some((error, left, (i, j)));

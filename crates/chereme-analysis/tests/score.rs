@@ -172,6 +172,40 @@ fn no_part_exceeds_the_whole_at_unequal_rates() {
 }
 
 #[test]
+fn the_ends_of_fingers_in_other_files_are_no_movement() {
+    let ended = |tip: &dyn Fn(DVec3) -> Option<DVec3>| {
+        let skeleton = signer(1.0, "", true);
+        let last = |n: usize| skeleton.joint(n).name.ends_with('3');
+        let joints = skeleton.joints().iter().enumerate();
+        let joints = joints.map(|(n, joint)| Joint {
+            tip: match last(n) {
+                true => tip(joint.offset.normalize() * 0.02),
+                false => joint.tip,
+            },
+            ..joint.clone()
+        });
+        performance(Skeleton::new(joints.collect()).expect("a tree"), 60)
+    };
+    let clip = ended(&Some);
+    for (tip, most) in [
+        (&Some as &dyn Fn(DVec3) -> Option<DVec3>, 0.0),
+        (&|tip: DVec3| Some(DVec3::Y * tip.length()), 1e-9),
+        (&|_: DVec3| Some(DVec3::ZERO), 0.0),
+        (&|_: DVec3| None, 0.0),
+    ] {
+        let other = ended(tip);
+        for found in [scored(&clip, &other), scored(&other, &clip)] {
+            let error = found.max_joint_error_m.expect("joints");
+            assert!(
+                error <= most && found.distance < 1e-6,
+                "{error} {}",
+                found.distance
+            );
+        }
+    }
+}
+
+#[test]
 fn a_translated_copy_differs_only_by_its_translation() {
     let clip = performance(signer(1.0, "", true), 60);
     let by = DVec3::new(0.3, 0.0, -0.4);

@@ -10,7 +10,7 @@ use chereme_formats::Mend;
 use chereme_formats::bvh::bones::Bones;
 use chereme_formats::bvh::convert::{self, ClipBuilder};
 use chereme_formats::bvh::raw::{Block, ChannelFix, Hierarchy, Options, Reader};
-use chereme_motion::anatomy::{Anatomy, ConventionGuess, Evidence, Part};
+use chereme_motion::anatomy::{Anatomy, ConventionGuess, Evidence, OddTip, Part};
 use chereme_motion::ends::Ends;
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Clip, Convention, ModelPose, Rate, Side, Skeleton};
@@ -485,6 +485,7 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
             )),
         });
     }
+    report.findings.extend(odd_tips(skeleton, anatomy));
     let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
     let body = BodyRead {
         roles: anatomy.found().map(role).collect(),
@@ -655,4 +656,29 @@ fn finish(job: &mut Job<'_>, recording: i64, track: i64, frames: u64, rate: Rate
     recordings::lengthen(job.connection, recording, end.micros())?;
     job.keep(Some(recording), None)?;
     Ok(())
+}
+
+/// Returns findings about the ends of thumbs and fingers that are mended for measures and pictures.
+fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
+    let named = |odd: OddTip| {
+        let joints =
+            (0..skeleton.len()).filter(|&joint| anatomy.odd_tip(skeleton, joint) == Some(odd));
+        let names: Vec<&str> = joints.map(|it| skeleton.joint(it).name.as_str()).collect();
+        (names.len(), names.join(", "))
+    };
+    let message = |odd: OddTip| match (odd, named(odd)) {
+        (_, (0, _)) => None,
+        (OddTip::Turned, (_, names)) => Some(format!(
+            "the ends of these finger bones point elsewhere than the fingers and are turned to them: {names}"
+        )),
+        (OddTip::Short, (_, names)) => Some(format!(
+            "the ends of these finger bones have no length, so that their fingertips are guessed: {names}"
+        )),
+    };
+    let messages = [OddTip::Turned, OddTip::Short].map(message);
+    messages
+        .into_iter()
+        .flatten()
+        .map(ReportFinding::note)
+        .collect()
 }

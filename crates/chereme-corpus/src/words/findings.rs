@@ -79,6 +79,14 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "importez avec lui le .eaf du même nom",
     ),
     (
+        "the ends of these finger bones point elsewhere than the fingers and are turned to them: {names}",
+        "les extrémités de ces os des doigts pointent ailleurs que les doigts et sont tournées vers eux : {names}",
+    ),
+    (
+        "the ends of these finger bones have no length, so that their fingertips are guessed: {names}",
+        "les extrémités de ces os des doigts n’ont pas de longueur ; les bouts des doigts sont donc supposés : {names}",
+    ),
+    (
         "not found in the skeleton: {parts} and {n} more",
         "introuvables dans le squelette : {parts} et {n} autres",
     ),

@@ -85,7 +85,7 @@ fn points(skeleton: &Skeleton, anatomy: &Anatomy, side: Side) -> Vec<Point> {
     let at = |part: Part| anatomy.joint(part).map(Point::at);
     let tip = |part: Part| {
         let joint = anatomy.joint(part)?;
-        let local = skeleton.joint(joint).tip.unwrap_or_default().as_vec3();
+        let local = anatomy.tip(skeleton, joint).unwrap_or_default().as_vec3();
         Some(Point { joint, local })
     };
     let knuckles = Finger::ALL.map(|finger| at(Part::Finger(side, finger, 1)));

@@ -167,6 +167,7 @@ impl HandFit<'_> {
     ) -> ([Fitted; BONES], f32) {
         let side = self.side;
         let joint = |part| self.anatomy.joint(part);
+        let odd_tip = |joint: usize| self.anatomy.odd_tip(self.skeleton, joint).is_some();
         let knuckle = |finger: Finger| joint(Part::Finger(side, finger, 1)).map(|j| place(bind, j));
         let root = place(bind, wrist);
         let measured = self
@@ -239,7 +240,7 @@ impl HandFit<'_> {
                 };
                 let end = match (next, found) {
                     (Some(next), _) => Some(next),
-                    (None, Some(joint)) => tip(self.skeleton, joint)
+                    (None, Some(joint)) => tip((self.skeleton, self.anatomy), joint)
                         .map(|tip| place(bind, joint) + rotation(bind, joint) * tip),
                     (None, None) => None,
                 };
@@ -253,6 +254,9 @@ impl HandFit<'_> {
                         (end - from).normalize_or(towards),
                         end.distance(from) / length,
                     ),
+                    (None, Some(joint)) if at > 0 && odd_tip(joint) => {
+                        (bones[parent].axes.y_axis, thick)
+                    }
                     (None, Some(_)) => (towards, thick),
                     (None, None) => {
                         let (fitted, made_parent) = (bones[parent], glove.bones[parent]);
@@ -345,8 +349,8 @@ fn above(index: usize) -> usize {
 }
 
 /// Returns the end of the bone of a last joint, in the joint's space, if the skeleton has it.
-fn tip(skeleton: &Skeleton, joint: usize) -> Option<Vec3> {
-    let own = skeleton.joint(joint).tip.map(|tip| tip.as_vec3());
+fn tip((skeleton, anatomy): (&Skeleton, &Anatomy), joint: usize) -> Option<Vec3> {
+    let own = anatomy.tip(skeleton, joint).map(|tip| tip.as_vec3());
     own.or_else(|| {
         let child = *skeleton.children(joint).first()?;
         Some(skeleton.joint(child).offset.as_vec3())

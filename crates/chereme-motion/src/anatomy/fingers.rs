@@ -241,6 +241,48 @@ pub(super) fn digit_tip(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) ->
     Some(own.rest.inverse() * second * tip.length())
 }
 
+/// A fault of the tip of a thumb or finger in its file, which is mended for measures and pictures.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum OddTip {
+    /// It points elsewhere than the finger, and is turned to the direction of the bone before.
+    Turned,
+    /// It has no length.
+    Short,
+}
+
+/// The least length of a tip as a share of the bone before it.
+const SHORT: f64 = 0.05;
+
+impl Anatomy {
+    /// Returns the tip of a joint in the joint's space. That of a thumb or finger which points elsewhere than its bones is
+    /// turned; `None` if the joint has none, or one of a finger that is as good as none.
+    #[must_use]
+    pub fn tip(&self, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+        match self.odd_tip(skeleton, joint) {
+            Some(OddTip::Short) => None,
+            _ => digit_tip(self, skeleton, joint),
+        }
+    }
+
+    /// Returns the fault of the tip of a joint, if it ends a thumb or finger and has one.
+    #[must_use]
+    pub fn odd_tip(&self, skeleton: &Skeleton, joint: usize) -> Option<OddTip> {
+        let own = skeleton.joint(joint);
+        let tip = own.tip?;
+        let digit = self.part_of(joint)?;
+        if !matches!(digit, Part::Thumb(..) | Part::Finger(..)) {
+            return None;
+        }
+        if !skeleton.children(joint).is_empty() {
+            return None;
+        }
+        if tip.length() <= SHORT * own.offset.length() {
+            return Some(OddTip::Short);
+        }
+        (digit_tip(self, skeleton, joint) != Some(tip)).then_some(OddTip::Turned)
+    }
+}
+
 /// Returns whether thumb and fingers at rest clearly point and bend away from the palm that the side implies: then the
 /// skeleton was mirrored without renaming its joints. Both must do so by at least 0.3 rad, so that a relaxed hand is
 /// never affected.
@@ -510,6 +552,11 @@ mod tests {
                     };
                     let (one, other) = (at((&plain, &anatomy)), at((&odd, &read)));
                     assert!(one.distance(other) < 0.003, "{axis} {name}");
+                    let last = read.joint(Part::Finger(side, finger, 3)).expect("a joint");
+                    assert_eq!(read.odd_tip(&odd, last), Some(OddTip::Turned));
+                    let (tip, plain_tip) = (read.tip(&odd, last), plain.joint(last).tip);
+                    let off = tip.expect("a tip").distance(plain_tip.expect("a tip"));
+                    assert!(off < 0.003, "{axis} {name}: {off}");
                 }
             }
         }
@@ -522,7 +569,27 @@ mod tests {
             for joint in 0..skeleton.len() {
                 let tip = digit_tip(&anatomy, &skeleton, joint);
                 assert_eq!(tip, skeleton.joint(joint).tip, "{bent}");
+                assert_eq!(anatomy.tip(&skeleton, joint), tip, "{bent}");
+                assert_eq!(anatomy.odd_tip(&skeleton, joint), None, "{bent}");
             }
         }
+    }
+
+    #[test]
+    fn a_tip_without_a_length_is_none() {
+        let mut joints = body(PLAIN).joints().to_vec();
+        for joint in &mut joints {
+            joint.tip = joint.tip.map(|_| DVec3::ZERO);
+        }
+        let (skeleton, anatomy) = known(joints);
+        for side in Side::BOTH {
+            let last = anatomy.joint(Part::Finger(side, Finger::Index, 3));
+            let last = last.expect("a joint");
+            assert_eq!(anatomy.odd_tip(&skeleton, last), Some(OddTip::Short));
+            assert_eq!(anatomy.tip(&skeleton, last), None);
+        }
+        let head = anatomy.joint(Part::Head).expect("a head");
+        assert_eq!(anatomy.odd_tip(&skeleton, head), None);
+        assert_eq!(anatomy.tip(&skeleton, head), skeleton.joint(head).tip);
     }
 }

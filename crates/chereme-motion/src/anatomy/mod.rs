@@ -52,6 +52,7 @@ use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 pub use convention::{ConventionGuess, detect_convention};
+pub use fingers::OddTip;
 pub use measures::{BodyFrame, Measures};
 pub use part::{Part, PartError};
 pub use range::{HandCorrection, HandRange};
