@@ -54,6 +54,13 @@ pub(crate) fn rows(query: &Query) -> Vec<Condition> {
     }
 }
 
+/// Returns the query for tokens that meet all rows of one of the alternatives, as text.
+pub(crate) fn either(alternatives: &[Vec<Condition>]) -> String {
+    let each = alternatives.iter();
+    let root = Expr::any(each.map(|rows| Expr::all(rows.iter().map(expr))));
+    Query { root }.to_string()
+}
+
 /// Returns the query of rows, as text.
 pub(crate) fn text(rows: &[Condition]) -> String {
     let root = Expr::all(rows.iter().map(expr));
