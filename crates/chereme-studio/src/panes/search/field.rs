@@ -257,7 +257,7 @@ impl Field {
 impl Field {
     /// Reports that there is no saved search with that name, and offers the likeliest one.
     fn unkept(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, name: String, typed: &mut Typed) {
-        if name.is_empty() || suggest::kept_query(&self.text, seen.snapshot).is_some() {
+        if name.is_empty() || !suggest::is_unkept(&self.text, seen.snapshot) {
             return;
         }
         ui.horizontal_wrapped(|ui| {

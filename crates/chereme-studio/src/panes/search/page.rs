@@ -77,7 +77,8 @@ impl Search {
             self.reach(self.at);
         }
         // The field itself reports text that is not a valid query.
-        let faulty = Query::parse(&self.field.text).is_err();
+        let text = &self.field.text;
+        let faulty = Query::parse(text).is_err() || suggest::is_unkept(text, seen.snapshot);
         if let Some(wrong) = self
             .wrong
             .as_ref()

@@ -78,6 +78,11 @@ pub(super) fn kept_name(query: &str) -> Option<&str> {
     query.trim().strip_prefix('@')
 }
 
+/// Returns whether a query is the name of a saved search that does not exist.
+pub(super) fn is_unkept(query: &str, snapshot: &Snapshot) -> bool {
+    kept_name(query).is_some() && kept_query(query, snapshot).is_none()
+}
+
 /// Returns the query of a saved search, if `query` is its name.
 pub(crate) fn kept_query<'a>(query: &str, snapshot: &'a Snapshot) -> Option<&'a str> {
     let name = fold(kept_name(query)?.trim());
@@ -348,5 +353,19 @@ mod tests {
             offers.take("placement=ch gloss=A", &chin.expect("the chin"))
         };
         assert_eq!((text.as_str(), cursor), ("placement=chin gloss=A", 14));
+    }
+
+    #[test]
+    fn only_the_name_of_no_saved_search_is_reported_by_the_field() {
+        let snapshot = snapshot();
+        for (query, unkept) in [
+            ("@nowhere", true),
+            (" @nowhere ", true),
+            ("@a la tete", false),
+            ("placement=head", false),
+            ("", false),
+        ] {
+            assert_eq!(is_unkept(query, &snapshot), unkept, "{query}");
+        }
     }
 }
