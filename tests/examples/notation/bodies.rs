@@ -55,12 +55,23 @@ fn read(
     })
 }
 
-/// Writes a clip as BVH and reads it again, with the anatomy that is found in it.
+/// The decimals of numbers in exported files.
 #[allow(dead_code, reason = "only the transcriber's example needs it")]
-pub(crate) fn again(clip: &Clip) -> Result<(Clip, Arc<Anatomy>)> {
-    const DECIMALS: u8 = 6;
+pub(crate) const DECIMALS: u8 = 6;
+
+/// Writes a clip as BVH, its angles with `decimals` digits after the point, and reads it again, with the anatomy that
+/// is found in it.
+#[allow(dead_code, reason = "only the transcriber's example needs it")]
+pub(crate) fn again(clip: &Clip, decimals: u8) -> Result<(Clip, Arc<Anatomy>)> {
     let hierarchy = convert::widened(&convert::hierarchy(clip.skeleton(), DECIMALS), clip);
-    let columns = convert::columns(clip, &hierarchy, DECIMALS)?;
+    let channels = hierarchy.joints.iter().flat_map(|joint| &joint.channels);
+    let [fine, coarse] = [DECIMALS, decimals].map(|n| convert::columns(clip, &hierarchy, n));
+    let columns = channels.zip(fine?.into_iter().zip(coarse?));
+    let columns = columns.map(|(channel, (fine, coarse))| match channel.is_rotation() {
+        true => coarse,
+        false => fine,
+    });
+    let columns = columns.collect();
     let time = Decimal::rounded(clip.rate().frame_time(), 9).map(Number::from);
     let motion = Some((time.as_ref(), clip.frames() as u64));
     let mut bytes = Vec::new();

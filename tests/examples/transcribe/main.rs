@@ -13,6 +13,8 @@
 //! one sign in HamNoSys characters on each line. Signs are animated at the body's own frame rate; a number after the
 //! body is another frame rate, `1/7` takes one sign in seven, and a file of body language (`.json`) replaces numbers of
 //! the animator, but not of the transcriber.
+//! `... -- noisy FOLDER BODY.bvh` does as `blind` with movement that is disturbed before its export: by noise, by slow
+//! wobble, without End Sites, with one decimal, and with few frames.
 //! `... -- movement FILE.bvh...` transcribes captured movement, animates the transcription, and prints their distance.
 
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
@@ -21,6 +23,7 @@
 mod bodies;
 mod compare;
 mod movement;
+mod noisy;
 mod notation;
 
 use std::error::Error;
@@ -56,9 +59,13 @@ fn main() -> Result<()> {
         ["plain-confusions", feature, folder, body, rate @ ..] => {
             closed(folder, body, rate, More::PlainConfusions(feature))
         }
+        ["noisy", folder, body, rate @ ..] => {
+            let (settings, rate, every) = settings(rate)?;
+            noisy::table((Path::new(folder), every), Path::new(body), (rate, settings))
+        }
         ["movement", files @ ..] if !files.is_empty() => movement::table(files),
         _ => Err(
-            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `blind FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `confusions FEATURE \
+            "say `notation FOLDER BODY.bvh`, `plain FOLDER BODY.bvh`, `blind FOLDER BODY.bvh`, `noisy FOLDER BODY.bvh`, `why FEATURE FOLDER BODY.bvh` or `confusions FEATURE \
              FOLDER BODY.bvh`, the frames a second behind it where they are others than the body's; or `movement FILE.bvh...`"
                 .into(),
         ),
@@ -66,6 +73,14 @@ fn main() -> Result<()> {
 }
 
 fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()> {
+    let (settings, rate, every) = settings(words)?;
+    let folder = (Path::new(folder), every);
+    notation::table(folder, Path::new(body), (rate, settings), more)
+}
+
+/// Reads the words behind the body: the animator's settings, the frame rate, and how many signs stand for one in the
+/// sample.
+fn settings(words: &[&str]) -> Result<(Settings, Option<u32>, usize)> {
     let mut settings = Settings::default();
     let (mut rate, mut every) = (None, 1);
     for word in words {
@@ -79,6 +94,5 @@ fn closed(folder: &str, body: &str, words: &[&str], more: More<'_>) -> Result<()
             rate = Some(word.parse()?);
         }
     }
-    let folder = (Path::new(folder), every);
-    notation::table(folder, Path::new(body), (rate, settings), more)
+    Ok((settings, rate, every))
 }

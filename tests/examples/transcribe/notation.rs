@@ -9,8 +9,8 @@ use std::time::Instant as Clock;
 use chereme_analysis::transcribe::{
     Options, Performs, Transcription, transcribe, transcribe_proven,
 };
-use chereme_compose::Material;
 use chereme_compose::notation::{Performer, Settings, animate};
+use chereme_compose::{Generated, Material};
 use chereme_motion::{Anatomy, Clip, Rate, Span};
 use chereme_sign::hamnosys::{Manual, Notated, Sign, parse};
 
@@ -99,24 +99,10 @@ pub(crate) fn table(
     let mut confusions: BTreeMap<(String, String), usize> = BTreeMap::new();
     let (mut parts, mut whole, mut failed, mut slow) = (0, 0, 0, 0.0_f64);
     let mut spent = 0.0;
-    let signs = match folder.is_dir() {
-        true => bodies::signs(folder)?,
-        false => lines(folder)?,
-    };
-    let todo: Vec<(&str, &Notated, &Manual)> = signs
-        .iter()
-        .step_by(every)
-        .filter(|(name, _)| {
-            matches!(more, More::Nothing | More::Plain | More::Blind) || is_tuned_on(name)
-        })
-        .flat_map(|(name, entry)| {
-            entry
-                .sign
-                .parts
-                .iter()
-                .map(move |part| (&**name, entry, part))
-        })
-        .collect();
+    let signs = read_signs(folder)?;
+    let todo = parts_of(&signs, every, |name| {
+        matches!(more, More::Nothing | More::Plain | More::Blind) || is_tuned_on(name)
+    });
     let seen = seen(&todo, |(name, entry, part)| {
         let again = again(part, entry, &stage, (&settings, &options), more)?;
         Some(Seen {
@@ -189,6 +175,28 @@ pub(crate) fn table(
     Ok(())
 }
 
+/// Reads the signs of a folder or of a text file.
+pub(crate) fn read_signs(folder: &Path) -> Result<Vec<(String, Notated)>> {
+    match folder.is_dir() {
+        true => bodies::signs(folder),
+        false => lines(folder),
+    }
+}
+
+/// Returns the parts of one sign in `every`, of those whose name is wanted.
+pub(crate) fn parts_of(
+    signs: &[(String, Notated)],
+    every: usize,
+    wanted: impl Fn(&str) -> bool,
+) -> Vec<(&str, &Notated, &Manual)> {
+    let some = signs.iter().step_by(every).filter(|(name, _)| wanted(name));
+    let parts = some.flat_map(|(name, entry)| {
+        let parts = entry.sign.parts.iter();
+        parts.map(move |part| (&**name, entry, part))
+    });
+    parts.collect()
+}
+
 /// Reads the signs of a text file with one sign in HamNoSys characters on each line; the rest of a line is ignored.
 fn lines(file: &Path) -> Result<Vec<(String, Notated)>> {
     let text = std::fs::read_to_string(file)?;
@@ -228,7 +236,7 @@ struct Seen {
 }
 
 /// Calls `does` on each item, on all cores of the machine; the results are in the order of the items.
-fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub(crate) fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let threads = std::thread::available_parallelism().map_or(1, usize::from);
     let (next, does) = (&AtomicUsize::new(0), &does);
     let mut seen: Vec<(usize, R)> = std::thread::scope(|scope| {
@@ -269,7 +277,31 @@ pub(crate) struct Again {
     /// The frame in which the animator reaches the first posture, if the transcriber had to find it.
     pub(crate) begins: Option<usize>,
     /// The time of the transcription.
-    seconds: f64,
+    pub(crate) seconds: f64,
+}
+
+/// Animates a part of a sign alone.
+pub(crate) fn made(
+    part: &Manual,
+    entry: &Notated,
+    stage: &Material,
+    settings: &Settings,
+) -> Option<Generated> {
+    let mut alone = entry.clone();
+    alone.sign = Sign {
+        parts: vec![Manual {
+            holdover: false,
+            ..part.clone()
+        }],
+    };
+    animate(&[&alone], stage, settings).ok()
+}
+
+/// Returns the span of the sign itself, without the movements from and to rest.
+pub(crate) fn sign_span(made: &Generated) -> Option<Span> {
+    let mut notes = made.notes.iter();
+    let gloss = notes.find(|note| note.about == chereme_compose::About::Gloss);
+    gloss.map(|note| note.span)
 }
 
 /// Animates a part of a sign alone and transcribes it.
@@ -280,19 +312,8 @@ fn again(
     (settings, options): (&Settings, &Options),
     more: More<'_>,
 ) -> Option<Again> {
-    let mut alone = entry.clone();
-    alone.sign = Sign {
-        parts: vec![Manual {
-            holdover: false,
-            ..part.clone()
-        }],
-    };
-    let made = animate(&[&alone], stage, settings).ok()?;
-    let span: Span = made
-        .notes
-        .iter()
-        .find(|note| note.about == chereme_compose::About::Gloss)?
-        .span;
+    let made = made(part, entry, stage, settings)?;
+    let span = sign_span(&made)?;
     if more.is_blind() {
         return blind(made, span, options);
     }
@@ -318,10 +339,10 @@ fn again(
 }
 
 /// Exports movement as BVH, imports it without its notation, and transcribes it like a capture.
-fn blind(made: chereme_compose::Generated, span: Span, options: &Options) -> Option<Again> {
+fn blind(made: Generated, span: Span, options: &Options) -> Option<Again> {
     let short = is_short(&made);
     let begins = made.clip.rate().frame_at(span.start());
-    let (clip, anatomy) = bodies::again(&made.clip).ok()?;
+    let (clip, anatomy) = bodies::again(&made.clip, bodies::DECIMALS).ok()?;
     let began = Clock::now();
     let found = transcribe(&clip, &anatomy, options).ok()?;
     let seconds = began.elapsed().as_secs_f64();
@@ -336,7 +357,7 @@ fn blind(made: chereme_compose::Generated, span: Span, options: &Options) -> Opt
 }
 
 /// Returns whether the animator reports that the body fell short of the notation.
-fn is_short(made: &chereme_compose::Generated) -> bool {
+pub(crate) fn is_short(made: &Generated) -> bool {
     made.report.warnings.iter().any(|warning| {
         [
             "less than written",
