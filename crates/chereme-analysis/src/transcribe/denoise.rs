@@ -1,7 +1,7 @@
 //! Denoises joints that tremble from frame to frame, as no person's do: noise of sensors, or of postures
 //! estimated frame by frame.
 
-use std::f64::consts::PI;
+use std::ops::Range;
 use std::sync::Arc;
 
 use chereme_motion::{Channel, Clip};
@@ -11,6 +11,9 @@ use crate::transcribe::tuned::tuned;
 
 /// The fewest frames from which noise can be estimated.
 const FEWEST: usize = 12;
+
+/// Kernel widths that are tried, as shares of the widest.
+const WIDTHS: [f64; 7] = [0.15, 0.25, 0.35, 0.5, 0.7, 0.85, 1.0];
 
 /// A clip whose trembling joints were smoothed.
 pub(super) struct Steadied {
@@ -33,13 +36,8 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
         }
         most = most.max(trembles.to_degrees());
         joints += 1;
-        // A kernel n frames wide divides the standard deviation of white noise by the square root of
-        // 32 √π n / 27. This width leaves half of the noise that counts as trembling.
-        let enough =
-            (2.0 * trembles / tuned().denoise.trembles).powi(2) * 27.0 / (32.0 * PI.sqrt());
-        let wide = enough.min(tuned().denoise.widest * clip.rate().per_second());
         channels.push(Channel {
-            rotations: smoothed(&channel.rotations, wide),
+            rotations: calmed(&channel.rotations, trembles, clip.rate().per_second()),
             translations: channel.translations.clone(),
         });
     }
@@ -50,41 +48,118 @@ pub(super) fn steadied(clip: &Clip) -> Option<Steadied> {
     Some(Steadied { clip, most, joints })
 }
 
-/// Returns the noise of rotations about each axis (rad), by the median of their fourth differences, which
-/// hold little of real movement.
+/// Returns the noise of rotations about each axis (rad), by the median product of successive fourth differences: noise
+/// turns them round from frame to frame, and movement does not.
 fn noise(rotations: &[DQuat]) -> f64 {
-    // Ratio of the median length of normally distributed vectors to their standard deviation along one axis.
-    const MEDIAN: f64 = 1.538;
+    // Ratio of that median, for normally distributed vectors, to their variance along one axis.
+    const MEDIAN: f64 = -128.3;
     if rotations.len() < FEWEST {
         return 0.0;
     }
-    let mut differences: Vec<f64> = rotations
-        .windows(5)
-        .map(|five| {
-            let like = |n: usize| {
-                let v = DVec4::from(five[n]);
-                if five[n].dot(five[2]) < 0.0 { -v } else { v }
+    let mut last = DVec4::ZERO;
+    let near: Vec<DVec4> = rotations
+        .iter()
+        .map(|turned| {
+            let turned = DVec4::from(*turned);
+            last = if turned.dot(last) < 0.0 {
+                -turned
+            } else {
+                turned
             };
-            let fourth = like(0) + like(4) - 4.0 * (like(1) + like(3)) + 6.0 * like(2);
-            fourth.length()
+            last
         })
         .collect();
-    let middle = differences.len() / 2;
-    let (_, median, _) = differences.select_nth_unstable_by(middle, f64::total_cmp);
-    // The squares of 1, 4, 6, 4, 1 sum to 70; a quaternion has half of the angle.
-    2.0 * *median / (MEDIAN * 70.0_f64.sqrt())
+    let differences: Vec<DVec4> = near
+        .windows(5)
+        .map(|five| five[0] + five[4] - 4.0 * (five[1] + five[3]) + 6.0 * five[2])
+        .collect();
+    let pairs = differences.windows(2);
+    let mut products: Vec<f64> = pairs.map(|pair| pair[0].dot(pair[1])).collect();
+    let middle = products.len() / 2;
+    let (_, median, _) = products.select_nth_unstable_by(middle, f64::total_cmp);
+    // A quaternion has half of the angle.
+    2.0 * (*median / MEDIAN).max(0.0).sqrt()
+}
+
+/// Returns rotations without most of their noise (rad about each axis): the mean of what a kernel leaves of them, and
+/// of the stretches in which they stay within their noise, each by the frames that it averages.
+fn calmed(rotations: &[DQuat], noise: f64, per_second: f64) -> Vec<DQuat> {
+    let (moving, frames) = least_wrong(rotations, noise, per_second);
+    let mut sums: Vec<DVec4> = moving
+        .iter()
+        .map(|turned| DVec4::from(*turned) * frames.powi(2))
+        .collect();
+    for (stretch, mean) in holds(rotations, noise, per_second) {
+        let weight = (stretch.len() as f64).powi(2);
+        for n in stretch {
+            let sign = moving[n].dot(DQuat::from_vec4(mean)).signum();
+            sums[n] += mean * (sign * weight);
+        }
+    }
+    let both = sums.into_iter().zip(&moving);
+    both.map(|(sum, turned)| DQuat::from_vec4(sum.normalize_or(DVec4::from(*turned))))
+        .collect()
+}
+
+/// Smooths rotations by the kernel with the least expected error, which is the remaining noise and the deformation of the
+/// movement (Stein's unbiased estimate of risk, Annals of Statistics 9, 1981); also returns how many frames it averages.
+fn least_wrong(rotations: &[DQuat], noise: f64, per_second: f64) -> (Vec<DQuat>, f64) {
+    let widest = tuned().denoise.widest * per_second;
+    // Without a kernel the error is the noise about three axes.
+    let mut best = (rotations.to_vec(), 1.0, 3.0 * noise * noise);
+    for share in WIDTHS {
+        let wide = share * widest;
+        let smooth = smoothed(rotations, wide);
+        let squares: f64 = smooth
+            .iter()
+            .zip(rotations)
+            .map(|(a, b)| a.angle_between(*b).powi(2))
+            .sum();
+        let bell = bell(wide);
+        let all = bell[0] + 2.0 * bell[1..].iter().sum::<f64>();
+        let own = bell[0] / all;
+        let wrong = squares / rotations.len() as f64 + 3.0 * noise * noise * (2.0 * own - 1.0);
+        if wrong < best.2 {
+            let again = bell[0].powi(2) + 2.0 * bell[1..].iter().map(|it| it * it).sum::<f64>();
+            best = (smooth, all * all / again, wrong);
+        }
+    }
+    (best.0, best.1)
+}
+
+/// Returns, for each frame, the longest stretch from it on in which rotations differ by no more than their noise, with
+/// their mean.
+fn holds(
+    rotations: &[DQuat],
+    noise: f64,
+    per_second: f64,
+) -> impl Iterator<Item = (Range<usize>, DVec4)> {
+    let longest = (tuned().denoise.longest * per_second).round() as usize;
+    (0..rotations.len()).filter_map(move |first| {
+        let mut sum = DVec4::from(rotations[first]);
+        let mut end = first + 1;
+        while end < rotations.len().min(first + longest) {
+            let sign = rotations[end].dot(rotations[first]).signum();
+            let more = sum + DVec4::from(rotations[end]) * sign;
+            let count = (end + 1 - first) as f64;
+            // The squared distances from the mean; a quaternion has half of the angle.
+            let scatter = 4.0 * (count - more.length_squared() / count);
+            let free = 3.0 * (count - 1.0);
+            let most = free + tuned().denoise.odd * (2.0 * free).sqrt();
+            if scatter > noise * noise * most {
+                break;
+            }
+            (sum, end) = (more, end + 1);
+        }
+        (end > first + 1).then(|| (first..end, sum.normalize_or(DVec4::W)))
+    })
 }
 
 /// Smooths rotations by a kernel `wide` frames wide that preserves parabolas (Wand and Jones, *Kernel
 /// smoothing*, 2.8: the Gaussian kernel of fourth order).
 fn smoothed(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
-    let reach = (3.0 * wide).ceil() as usize;
-    let bell: Vec<f64> = (0..=reach)
-        .map(|away| {
-            let square = (away as f64 / wide.max(1e-6)).powi(2);
-            (1.5 - 0.5 * square) * (-0.5 * square).exp()
-        })
-        .collect();
+    let bell = bell(wide);
+    let reach = bell.len() - 1;
     (0..rotations.len())
         .map(|n| {
             let near = n.saturating_sub(reach)..(n + reach + 1).min(rotations.len());
@@ -100,10 +175,21 @@ fn smoothed(rotations: &[DQuat], wide: f64) -> Vec<DQuat> {
         .collect()
 }
 
+/// Returns the weights of that kernel, by the distance in frames.
+fn bell(wide: f64) -> Vec<f64> {
+    let reach = (3.0 * wide).ceil() as usize;
+    let weights = (0..=reach).map(|away| {
+        let square = (away as f64 / wide.max(1e-6)).powi(2);
+        (1.5 - 0.5 * square) * (-0.5 * square).exp()
+    });
+    weights.collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use glam::DVec3;
+    use std::f64::consts::TAU;
 
     /// Returns random numbers with mean 0 and standard deviation about 1.
     fn noisy(seed: &mut u64) -> f64 {
@@ -121,7 +207,7 @@ mod tests {
         let mut seed = 7;
         (0..frames)
             .map(|n| {
-                let turn = DQuat::from_rotation_x(0.6 * (n as f64 / 60.0 * 2.0 * PI * 2.0).sin());
+                let turn = DQuat::from_rotation_x(0.6 * (n as f64 / 60.0 * 2.0 * TAU).sin());
                 let by = DVec3::new(noisy(&mut seed), noisy(&mut seed), noisy(&mut seed));
                 turn * DQuat::from_scaled_axis(by * noise)
             })
@@ -173,40 +259,43 @@ mod tests {
     }
 
     #[test]
-    fn half_of_the_noise_that_counts_as_trembling_is_left() {
+    fn holds_lose_most_of_their_noise_and_strokes_keep_their_shape() {
         let skeleton =
             chereme_motion::Skeleton::new(vec![chereme_motion::Joint::new("Hips", None, DVec3::Y)]);
         let skeleton = Arc::new(skeleton.expect("a joint"));
-        let rate = chereme_motion::Rate::new(1000, 1).expect("a rate");
+        let rate = chereme_motion::Rate::new(30, 1).expect("a rate");
+        // A hold of 0.6 s, a stroke of 0.4 s, and another hold.
+        let clean = |frame: usize| {
+            let share = ((frame as f64 - 18.0) / 12.0).clamp(0.0, 1.0);
+            DQuat::from_rotation_y(share * share * (3.0 - 2.0 * share))
+        };
         let mut seed = 3;
-        for times in [1.5, 3.0] {
-            let sd = times * tuned().denoise.trembles;
-            let shaken = |seed: &mut u64| {
-                DQuat::from_scaled_axis(DVec3::new(noisy(seed), noisy(seed), noisy(seed)) * sd)
-            };
-            let channel = Channel {
-                rotations: (0..6000).map(|_| shaken(&mut seed)).collect(),
-                translations: None,
-            };
-            let clip = Clip::new(Arc::clone(&skeleton), rate, vec![channel]).expect("a clip");
-            let steady = steadied(&clip).expect("it trembles");
-            assert_eq!(steady.joints, 1);
-            assert!(
-                (steady.most.to_radians() / sd - 1.0).abs() < 0.1,
-                "{}",
-                steady.most
-            );
-            let turns = &steady.clip.channel(0).rotations;
-            let squares: f64 = turns
-                .iter()
-                .map(|turn| turn.to_scaled_axis().length_squared())
-                .sum();
-            let left = (squares / (3.0 * turns.len() as f64)).sqrt();
-            let share = left / tuned().denoise.trembles;
-            assert!((share - 0.5).abs() < 0.06, "{times}: {share}");
+        for degrees in [0.1_f64, 0.2, 0.5, 1.0] {
+            let (mut held, mut moved) = (0.0, 0.0);
+            for _ in 0..20 {
+                let sd = degrees.to_radians();
+                let mut shaken = |frame: usize| {
+                    let by = DVec3::new(noisy(&mut seed), noisy(&mut seed), noisy(&mut seed));
+                    clean(frame) * DQuat::from_scaled_axis(by * sd)
+                };
+                let channel = Channel {
+                    rotations: (0..48).map(&mut shaken).collect(),
+                    translations: None,
+                };
+                let clip = Clip::new(Arc::clone(&skeleton), rate, vec![channel]).expect("a clip");
+                let steady = steadied(&clip).expect("it trembles");
+                assert_eq!(steady.joints, 1);
+                let turned = &steady.clip.channel(0).rotations;
+                let off = |n: usize| turned[n].angle_between(clean(n)).powi(2) / (3.0 * sd * sd);
+                held += (3..15).map(off).sum::<f64>() / 240.0;
+                moved += (18..31).map(off).sum::<f64>() / 260.0;
+            }
+            let (held, moved) = (held.sqrt(), moved.sqrt());
+            assert!(held < 0.5, "{degrees}: {held}");
+            assert!(moved < 1.1, "{degrees}: {moved}");
         }
         let still = Channel {
-            rotations: vec![DQuat::IDENTITY; 100],
+            rotations: (0..48).map(clean).collect(),
             translations: None,
         };
         let clip = Clip::new(skeleton, rate, vec![still]).expect("a clip");

@@ -337,14 +337,15 @@ fn looked_at(
     let steadied = denoise::steadied(clip);
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
-    let exact = Options {
-        slack: tuned().reading.made,
-        ..options.clone()
-    };
     let sight = tree::Sight::new(&scene, options);
-    let mut found = if options.slack > tuned().reading.made && precision::is_exact(&scene, &sight) {
-        let scene = scene::Scene::of(clip, anatomy, &exact)?;
-        resynthesis::written(&tree::Sight::new(&scene, &exact), performs)
+    let slack = precision::slack(&scene, &sight);
+    let mut found = if options.slack > slack {
+        let closer = Options {
+            slack,
+            ..options.clone()
+        };
+        let scene = scene::Scene::of(clip, anatomy, &closer)?;
+        resynthesis::written(&tree::Sight::new(&scene, &closer), performs)
     } else {
         resynthesis::written(&sight, performs)
     };

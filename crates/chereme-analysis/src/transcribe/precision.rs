@@ -1,51 +1,45 @@
 //! Infers from the movement itself how exactly hands hold the intended directions and handshapes.
 //!
 //! Human hands are some degrees off any direction that has a symbol; hands that a program moved by notation hold such
-//! directions, or such handshapes, exactly. The exporter of the movement need not state which it is: the share of exact
-//! frames exceeds chance only in synthesised movement.
-
-use chereme_motion::Side;
+//! directions, or such handshapes, exactly, and only a little off them where their movement was disturbed later. The
+//! exporter of the movement need not state which it is: the share of exact frames exceeds chance only in synthesised
+//! movement.
 
 use super::acts::signing;
-use super::scene::Scene;
+use super::scene::{HandTrajectory, Scene};
 use super::tree::Sight;
 use crate::transcribe::tuned::tuned;
 
-/// Returns whether the hands keep directions or handshapes as exactly as synthesised ones.
-pub(super) fn is_exact(scene: &Scene<'_>, sight: &Sight<'_>) -> bool {
-    let (mut exact, mut all) = (0, 0);
+/// Returns the expected distance (m) between the hands and their places: that of synthesised movement, and as much more as
+/// the hands are off directions or handshapes, at most that of the options. Captured hands keep these so exactly by
+/// chance only.
+pub(super) fn slack(scene: &Scene<'_>, sight: &Sight<'_>) -> f64 {
+    let mut errors = Vec::new();
     for track in scene.hands.iter().flatten() {
         // Transitions from and to rest have no intended direction.
         let signs: Vec<usize> = signing(scene, track).filter(|&n| !track.rests[n]).collect();
         let step = signs.len().div_ceil(tuned().precision.looked_at).max(1);
-        for &frame in signs.iter().step_by(step) {
-            all += 1;
-            exact += usize::from(keeps(sight, track.side, frame));
-        }
+        let frames = signs.iter().step_by(step);
+        errors.extend(frames.map(|&frame| error(sight, track, frame)));
     }
-    all > 0 && exact as f64 >= tuned().precision.many * all as f64
+    errors.sort_by(f64::total_cmp);
+    // Many hands are at least as exact as this.
+    let many = (tuned().precision.many * errors.len() as f64).ceil() as usize;
+    let error = many.checked_sub(1).map_or(f64::INFINITY, |n| errors[n]);
+    let off = (tuned().precision.turned[0] * error).to_radians() * tuned().precision.lever;
+    tuned().reading.made.hypot(off).min(sight.options.slack)
 }
 
-/// Returns whether a hand holds its direction and palm, or its handshape, exactly in a frame.
-fn keeps(sight: &Sight<'_>, side: Side, frame: usize) -> bool {
-    let Some(track) = sight
-        .scene
-        .hands
-        .iter()
-        .flatten()
-        .find(|track| track.side == side)
-    else {
-        return false;
-    };
+/// Returns the error of a hand's direction and palm, or of its handshape, in a frame, as a multiple of the error with which
+/// synthesised hands hold them.
+fn error(sight: &Sight<'_>, track: &HandTrajectory, frame: usize) -> f64 {
     let seen = sight.see(track, frame);
-    let turned = seen.extended.residual < tuned().precision.turned[0]
-        && seen
-            .palm
-            .as_ref()
-            .is_some_and(|palm| palm.residual < tuned().precision.turned[1]);
-    let shaped = seen
-        .shape
-        .as_ref()
-        .is_some_and(|shape| shape.residual < tuned().precision.shaped);
-    turned || shaped
+    let [along, about] = tuned().precision.turned;
+    let turned = seen.palm.as_ref().map_or(f64::INFINITY, |palm| {
+        (seen.extended.residual / along).max(palm.residual / about)
+    });
+    let shaped = seen.shape.as_ref().map_or(f64::INFINITY, |shape| {
+        shape.residual / tuned().precision.shaped
+    });
+    turned.min(shaped)
 }

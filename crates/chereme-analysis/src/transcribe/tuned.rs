@@ -19,12 +19,15 @@ tuned_numbers! {
     denoise: DenoiseNumbers {
         trembles: f64,
         widest: f64,
+        longest: f64,
+        odd: f64,
     }
     /// Numbers for the detection of synthesised movement.
     precision: PrecisionNumbers {
         turned: [f64; 2],
         shaped: f64,
         many: f64,
+        lever: f64,
         looked_at: usize,
     }
     /// Numbers for handshapes.

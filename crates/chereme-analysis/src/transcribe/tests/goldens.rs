@@ -107,14 +107,14 @@ fn scores(out: &mut String, case: &Case, found: &Transcription) {
     let sight = Sight::new(&scene, &case.options);
     let mut line = |text: String| writeln!(out, "{text}").expect("a text grows");
     line(format!(
-        "scene: arm {:?} shoulders {:?} hand {:?} loose {:?} alone {:?} lead {} exact {}",
+        "scene: arm {:?} shoulders {:?} hand {:?} loose {:?} alone {:?} lead {} slack {:.6}",
         scene.arm,
         scene.shoulders,
         scene.hand,
         scene.loose,
         scene.alone,
         sight.lead,
-        precision::is_exact(&scene, &sight)
+        precision::slack(&scene, &sight)
     ));
     let Some(track) = scene.hands[sight.lead].as_ref() else {
         return;
