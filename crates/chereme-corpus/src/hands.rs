@@ -149,7 +149,7 @@ pub(crate) fn corrections(
 }
 
 impl Kept {
-    /// Forgets what is known of an earlier state of the corpus.
+    /// Drops the hands of an earlier state of the corpus.
     fn renew(&mut self, connection: &Connection) -> Result<()> {
         let now = generation(connection)?;
         if self.generation != now {

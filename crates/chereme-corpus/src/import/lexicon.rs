@@ -271,7 +271,7 @@ fn store_inventories(
     Ok(known)
 }
 
-/// Returns a finding about values that the table calls otherwise than the inventory that has them, if there are some.
+/// Returns a finding about the values for which the table and the inventory have different names; `None` if there are none.
 fn renamed<'t>(
     inventory: &Inventory,
     texts: impl Iterator<Item = &'t str>,

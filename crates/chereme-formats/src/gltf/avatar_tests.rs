@@ -107,7 +107,7 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let (scene, findings) = parse(&bytes).expect("a GLB");
     assert_eq!(findings, []);
     let again = scene.clip;
-    // What the face does comes back as curves, not as joints.
+    // Movement of the face is read back as curves, not as joints.
     assert!(
         again
             .skeleton()

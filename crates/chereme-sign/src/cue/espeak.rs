@@ -50,8 +50,8 @@ fn first(letters: &[char], code: &CueCode, alphabet: Alphabet) -> Option<String>
     })
 }
 
-/// Cuts phones that are written together, such as `bɔ̃ʒuʁ` or `/həˈloʊ/`, into symbols of the code; `None` if a part of
-/// them is none. A symbol of the code is not cut.
+/// Cuts phones that are written together, such as `bɔ̃ʒuʁ` or `/həˈloʊ/`, into symbols of the code; `None` if the
+/// code does not know a part of them. A symbol of the code is not cut.
 pub(super) fn cut(word: &str, code: &CueCode, alphabet: Alphabet) -> Option<Vec<String>> {
     if code.symbols(word, alphabet).is_some() {
         return Some(vec![word.to_owned()]);

@@ -143,7 +143,7 @@ fn a_value_of_a_table_is_not_equal_to_others_by_aliases_of_the_program() {
 fn values_that_an_inventory_knows_stay_as_many_as_the_table_has() {
     let desk = Desk::new();
     let renamed = "other names for values, under which they are stored: ";
-    // The values of a table's column, all of which the program knows, the queries of each value and the finding.
+    // The values of a column (the program knows them all), the query of each value with its number of signs, and the finding.
     type Case<'t> = (&'t [&'t str], &'t [(&'t str, usize)], Option<&'t str>);
     let cases: [Case<'_>; 4] = [
         (
