@@ -312,8 +312,8 @@ pub trait Performs {
 /// its joint limits, and lets it give way to its arm within the room of its place. Such a hand is not at its notated
 /// place, but the right place puts it exactly at the observed position. If the first reading misses it, alternative
 /// readings are synthesised, at most [`MOST_TRIALS`] of movements and places. One that puts the hands within millimetres
-/// of their observed positions is reported; or, since a misread movement displaces them, one that misses them by much less than
-/// the first. If other orientations bring the hands much nearer to the observed ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
+/// of their observed positions is reported; or, since a misread movement displaces them, one whose first posture alone does so,
+/// or one that misses them by much less than the first. If other orientations bring the hands much nearer to the observed ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
 /// [`transcribe`] for it.
 ///
 /// # Errors
@@ -334,7 +334,11 @@ fn looked_at(
     options: &Options,
     performs: Option<&dyn Performs>,
 ) -> Result<Transcription, TranscribeError> {
-    let steadied = denoise::steadied(clip);
+    // Fast synthesised movement looks like noise.
+    let steadied = match performs {
+        Some(_) => None,
+        None => denoise::steadied(clip),
+    };
     let clip = steadied.as_ref().map_or(clip, |steadied| &steadied.clip);
     let scene = scene::Scene::of(clip, anatomy, options)?;
     let sight = tree::Sight::new(&scene, options);

@@ -10,7 +10,9 @@
 mod actions;
 mod homing;
 mod movement;
+mod regrouped;
 pub(super) mod replaced;
+mod reshaped;
 #[cfg(test)]
 mod tests;
 mod turning;
@@ -122,6 +124,8 @@ struct Tried {
     drift: [DVec3; 2],
     /// Whether the whole sign was synthesised.
     whole: bool,
+    /// The error of each hand in the first posture alone, in metres.
+    posed: [f64; 2],
 }
 
 impl Trial {
@@ -315,13 +319,14 @@ impl Proof<'_, '_> {
         still.best
     }
 
-    /// Returns whether another reading should replace the first one: it must be likelier, and match, or miss the hands by
-    /// much less.
+    /// Returns whether another reading should replace the first one: it must be likelier, and match (or its first posture
+    /// alone), or miss the hands by much less.
     fn is_better(&self, other: &Tried, first: &Tried) -> bool {
         let numbers = &tuned().resynthesis;
         let matches = self.beyond(other.off, numbers.almost).is_empty();
+        let posed = self.beyond(other.posed, numbers.exact).is_empty();
         other.total < first.total - numbers.rather
-            && (matches || other.error < numbers.less * first.error)
+            && (matches || posed || other.error < numbers.less * first.error)
     }
 
     /// Returns the reading without any place, if re-synthesis of it puts the hands where they were
@@ -488,13 +493,30 @@ impl Proof<'_, '_> {
         for (n, drift) in whole.drift.iter_mut().enumerate() {
             *drift = whole.aside[n] - (begun.aside[n] - begun.drift[n]);
         }
+        // If the movement is misread, only the first posture matches.
+        let numbers = &tuned().resynthesis;
+        let matches = |off: f64| numbers.posed + 0.5 * (off / numbers.nearly).powi(2);
+        whole.posed = begun.posed;
+        let posed = self.unlikely(&whole.trial, begun.posed.map(matches));
+        whole.total = whole.total.min(whole.trial.cost() + posed);
         Some(whole)
+    }
+
+    /// Returns the penalty (nepers) of the errors of a trial's hands, of those penalties that each hand has.
+    fn unlikely(&self, trial: &Trial, of: [f64; 2]) -> f64 {
+        match &trial.stand {
+            Stand::One(n, _) if self.begun.alone => of[*n],
+            Stand::Each(_) => of[0] + of[1],
+            Stand::Unsaid if self.begun.alone => of[self.sight.lead],
+            Stand::One(..) | Stand::Together(..) | Stand::Unsaid => of[0].max(of[1]),
+        }
     }
 
     /// Compares the clip of a trial with the observed hands; `drift` is the offset that is expected of the whole sign
     /// if the clip is of the first posture alone.
     fn tried(&self, trial: Trial, clip: &Clip, drift: Option<[DVec3; 2]>) -> Option<Tried> {
         let (mut off, mut aside) = self.apart(clip)?;
+        let posed = off;
         let exact = match drift {
             Some(_) => tuned().resynthesis.nearly,
             None => tuned().resynthesis.exact,
@@ -512,12 +534,7 @@ impl Proof<'_, '_> {
             let misses = numbers.inexact + otherwise[n] + numbers.farther * 1e3 * off[n];
             matches.min(displaced).min(misses)
         };
-        let unlikely = match &trial.stand {
-            Stand::One(n, _) if self.begun.alone => of(*n),
-            Stand::Each(_) => of(0) + of(1),
-            Stand::Unsaid if self.begun.alone => of(self.sight.lead),
-            Stand::One(..) | Stand::Together(..) | Stand::Unsaid => of(0).max(of(1)),
-        };
+        let unlikely = self.unlikely(&trial, [of(0), of(1)]);
         let cost = trial.cost();
         let counted = self.beyond(off, 0.0).into_iter();
         let error: f64 = counted.map(|n| off[n]).sum();
@@ -530,6 +547,7 @@ impl Proof<'_, '_> {
             aside,
             drift: drift.unwrap_or_default(),
             whole: drift.is_none(),
+            posed,
         })
     }
 

@@ -211,6 +211,7 @@ tuned_numbers! {
         almost: f64,
         displaced: f64,
         near: f64,
+        posed: f64,
         rather: f64,
         less: f64,
         inexact: f64,

@@ -5,6 +5,8 @@ use chereme_sign::hamnosys::{
     Place, Posture, Repeat, Repetition, Size, WristMotion,
 };
 
+use super::reshaped::reshaped;
+
 const SIZES: [Option<Size>; 3] = [None, Some(Size::Small), Some(Size::Big)];
 
 const ELLIPSES: [Ellipse; 4] = [
@@ -133,7 +135,8 @@ fn changed<T: Clone>(of: &T, change: impl FnOnce(&mut T)) -> T {
     other
 }
 
-fn repeated(action: &Motion, repeat: Repeat) -> Motion {
+/// Returns a repeated motion.
+pub(super) fn repeated(action: &Motion, repeat: Repeat) -> Motion {
     Motion::new(MotionKind::Repeated {
         motion: Box::new(action.clone()),
         repetition: Repetition::plain(repeat),
@@ -167,6 +170,7 @@ fn motions(of: &Motion) -> Vec<Motion> {
     if let MotionKind::Parallel(both) = &of.kind {
         all.extend(both.iter().cloned());
     }
+    all.extend(reshaped(of));
     all
 }
 

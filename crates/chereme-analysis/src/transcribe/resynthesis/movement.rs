@@ -8,6 +8,7 @@ use chereme_motion::HandAngles;
 use chereme_sign::hamnosys::{MotionKind, Place, Posture};
 
 use super::actions::{self, similar};
+use super::regrouped::regrouped;
 use super::unrolled::unrolled;
 use super::*;
 
@@ -71,6 +72,7 @@ impl Proof<'_, '_> {
             let mut others = similar(&actions);
             others.extend(self.targeted(&actions));
             others.extend(unrolled_in(&actions, &posture));
+            others.extend(regrouped(&actions));
             let best = self.deviations(at, others).into_iter();
             let best = best.min_by(|a, b| a.0.total_cmp(&b.0));
             let Some(best) = best.filter(|it| it.0 < numbers.nearer * least) else {

@@ -99,34 +99,47 @@ fn seen<T>(hands: &Hands, look: impl FnOnce(&Body<'_>) -> T) -> T {
     look(&Sight::new(&scene, &options).look(0).expect("a body"))
 }
 
-/// An animator that puts each hand `by` metres beside its place.
+/// An animator that puts each hand `by` metres beside its place, and `later` metres farther if it performs a whole sign.
 struct Displaces {
     near: [Near; 2],
     by: [DVec3; 2],
+    later: DVec3,
 }
 
 impl Performs for Displaces {
     fn begins(&self, sign: &Sign) -> Option<Clip> {
-        let place = sign.parts[0].posture.place.as_ref()?;
-        let ideal = self.near.iter().find_map(|near| near.at(place))?;
-        let hands = moved(&ideal, self.by);
-        Some(clip(0.0, |_| hands.clone()).0)
+        self.displaced(sign, DVec3::ZERO)
     }
 
     fn performs(&self, sign: &Sign) -> Option<Clip> {
-        self.begins(sign)
+        self.displaced(sign, self.later)
+    }
+}
+
+impl Displaces {
+    fn displaced(&self, sign: &Sign, farther: DVec3) -> Option<Clip> {
+        let place = sign.parts[0].posture.place.as_ref()?;
+        let ideal = self.near.iter().find_map(|near| near.at(place))?;
+        let hands = moved(&ideal, self.by.map(|by| by + farther));
+        Some(clip(0.0, |_| hands.clone()).0)
     }
 }
 
 /// Transcribes hands that an animator put `by` metres beside their `place`, which is within reach of the hands `from`.
 /// Returns the place as it is read without re-synthesis, and with it.
 fn read(from: Hands, place: &Place, by: [DVec3; 2]) -> [Option<Place>; 2] {
+    read_later(from, place, by, DVec3::ZERO)
+}
+
+/// Like [`read`], if the whole sign displaces the hands `later` metres farther, because the movement is misread.
+fn read_later(from: Hands, place: &Place, by: [DVec3; 2], later: DVec3) -> [Option<Place>; 2] {
     let ideal = Near::of(from).at(place).expect("a place within reach");
     let there = moved(&ideal, by);
     let (clip, anatomy) = clip(0.0, |_| there.clone());
     let displaces = Displaces {
         near: [there, ideal].map(Near::of),
         by,
+        later,
     };
     let options = Options::made();
     let alone = transcribe(&clip, &anatomy, &options).expect("a sign");
@@ -163,6 +176,30 @@ fn a_hand_that_is_displaced_by_centimetres_is_read_at_its_place() {
         let [alone, proven] = read(from, &place, [by.into(), DVec3::ZERO]);
         assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
         assert_eq!(proven.as_ref(), Some(&place), "displaced by {by:?}");
+    }
+}
+
+#[test]
+fn a_hand_whose_movement_is_misread_is_read_by_its_first_posture() {
+    use BodyLocation::{Chest, Shoulders, Stomach};
+    let right = Some(Side::RightAt);
+    let cases = [
+        (site(Chest, right), [0.0, 0.16, 0.0]),
+        (site(Shoulders, right), [0.09, -0.14, 0.08]),
+        (site(Stomach, None), [-0.14, 0.12, 0.0]),
+    ];
+    for (site, by) in cases {
+        let place = Place::Body(BodyPlace {
+            site,
+            ..BodyPlace::default()
+        });
+        for later in [[0.0, 0.0, 0.03], [0.02, -0.02, 0.0]] {
+            let from = [Some(before_chest(HandClass::Flat)), None];
+            let by = [by.into(), DVec3::ZERO];
+            let [alone, proven] = read_later(from, &place, by, later.into());
+            assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
+            assert_eq!(proven.as_ref(), Some(&place), "{by:?}, then {later:?}");
+        }
     }
 }
 
@@ -238,6 +275,27 @@ fn a_movement_that_is_misread_is_replaced_with_its_features() {
         "{:?}",
         found.findings
     );
+}
+
+#[test]
+fn fast_movement_is_not_smoothed_if_it_was_synthesised() {
+    let moves = Moves {
+        held: before_chest(HandClass::Flat),
+        lengths: [0.05, 0.09, 0.13],
+    };
+    let shaken = |time: f64| {
+        let frame = (60.0 * time).round();
+        moves
+            .held
+            .turned(DQuat::from_rotation_x(0.02 * (frame % 2.0)))
+    };
+    let (observed, anatomy) = clip(1.0, |time| [Some(shaken(time)), None]);
+    let options = Options::made();
+    let smoothed = |found: &Transcription| found.findings.iter().any(|it| it.contains("tremble"));
+    let captured = transcribe(&observed, &anatomy, &options).expect("a sign");
+    assert!(smoothed(&captured), "{:?}", captured.findings);
+    let made = transcribe_proven(&observed, &anatomy, &options, &moves).expect("a sign");
+    assert!(!smoothed(&made), "{:?}", made.findings);
 }
 
 /// An animator that turns every hand farther than it is written, by the same rotation.

@@ -1,0 +1,129 @@
+//! Other readings of several actions: as fewer ones, or as one that is repeated.
+//!
+//! If the first reading cuts a movement at a wrong frame, it has an action too many, or writes each turn of a repeated
+//! movement as an action of its own.
+
+use chereme_sign::hamnosys::{Motion, MotionKind, Repeat};
+
+use super::actions::repeated;
+
+/// The repetitions that are tried for several actions.
+const REPEATS: [Repeat; 4] = [
+    Repeat::FromStart,
+    Repeat::FromStartSeveral,
+    Repeat::Continue,
+    Repeat::Reverse,
+];
+
+/// Returns lists of fewer actions: each lacks one of `actions`, or has a repeated one instead of several.
+pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
+    let mut all = Vec::new();
+    if let [only] = actions {
+        let inner = inner(only).into_iter();
+        return inner.map(|other| vec![other]).collect();
+    }
+    for k in 0..actions.len() {
+        let mut other = actions.to_vec();
+        other.remove(k);
+        all.push(other);
+    }
+    for first in 0..actions.len() {
+        for last in first + 1..actions.len() {
+            for action in &actions[first..=last.min(first + 1)] {
+                let once = once(action);
+                all.extend(REPEATS.map(|repeat| {
+                    let instead = [repeated(once, repeat)];
+                    let rest = [&actions[..first], &instead, &actions[last + 1..]];
+                    rest.concat()
+                }));
+            }
+        }
+    }
+    all
+}
+
+/// Returns readings of an action whose parts are regrouped.
+fn inner(action: &Motion) -> Vec<Motion> {
+    let with = |kind| Motion {
+        kind,
+        ..action.clone()
+    };
+    match &action.kind {
+        MotionKind::Sequence { motions, fused } => {
+            let all = regrouped(motions).into_iter();
+            all.map(|mut motions| match motions.len() {
+                1 => motions.remove(0),
+                _ => with(MotionKind::Sequence {
+                    motions,
+                    fused: *fused,
+                }),
+            })
+            .collect()
+        }
+        MotionKind::Split(own, other) => {
+            let of_hand = |hand: &Option<Box<Motion>>| match hand.as_deref() {
+                Some(motion) => inner(motion).into_iter().map(Box::new).collect(),
+                None => Vec::new(),
+            };
+            let owns = of_hand(own).into_iter();
+            let others = of_hand(other).into_iter();
+            owns.map(|it| MotionKind::Split(Some(it), other.clone()))
+                .chain(others.map(|it| MotionKind::Split(own.clone(), Some(it))))
+                .map(with)
+                .collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// Returns the motion that is repeated; another motion is returned as it is.
+fn once(motion: &Motion) -> &Motion {
+    match &motion.kind {
+        MotionKind::Repeated { motion, .. } => motion,
+        _ => motion,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::actions::tests::{named, sign};
+    use super::*;
+
+    #[test]
+    fn fewer_actions_are_tried() {
+        let cases: [(&str, &[&str]); 3] = [
+            ("moveo", &[]),
+            (
+                "moveo movei",
+                &[
+                    "moveo",
+                    "movei",
+                    "moveo repeatfromstart",
+                    "movei repeatfromstartseveral",
+                    "moveo repeatreverse",
+                ],
+            ),
+            (
+                "moveo repeatfromstart movei nodding",
+                &[
+                    "moveo repeatfromstart movei",
+                    "moveo repeatfromstart nodding",
+                    "moveo repeatfromstartseveral",
+                    "moveo repeatcontinue nodding",
+                    "moveo repeatfromstart movei repeatreverse",
+                ],
+            ),
+        ];
+        for (movement, expected) in cases {
+            let of = sign(movement).parts.swap_remove(0).actions;
+            let all: Vec<String> = regrouped(&of).into_iter().map(named).collect();
+            for other in expected {
+                assert!(
+                    all.iter().any(|it| it == other),
+                    "{movement}: no {other} in {all:?}"
+                );
+            }
+            assert_eq!(expected.is_empty(), all.is_empty(), "{movement}: {all:?}");
+        }
+    }
+}
