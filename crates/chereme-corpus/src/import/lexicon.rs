@@ -271,7 +271,7 @@ fn store_inventories(
     Ok(known)
 }
 
-/// Returns a finding about the values for which the table and the inventory have different names; `None` if there are none.
+/// Returns a finding about the values that have different names in the table and in the inventory.
 fn renamed<'t>(
     inventory: &Inventory,
     texts: impl Iterator<Item = &'t str>,
