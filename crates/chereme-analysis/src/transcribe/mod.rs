@@ -313,7 +313,8 @@ pub trait Performs {
 /// place, but the right place puts it exactly at the observed position. If the first reading misses it, alternative
 /// readings are synthesised, at most [`MOST_TRIALS`] of movements and places. One that puts the hands within millimetres
 /// of their observed positions is reported; or, since a misread movement displaces them, one whose first posture alone does so,
-/// or one that misses them by much less than the first. If other orientations bring the hands much nearer to the observed ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
+/// or one that misses them by much less than the first. If other orientations bring the hands much nearer to the observed
+/// ones, they are read. Findings report what is not explained. Captured movement is never reproduced that exactly: use
 /// [`transcribe`] for it.
 ///
 /// # Errors
@@ -334,7 +335,7 @@ fn looked_at(
     options: &Options,
     performs: Option<&dyn Performs>,
 ) -> Result<Transcription, TranscribeError> {
-    // Fast synthesised movement looks like noise.
+    // Synthesised movement has no noise, but its fast repetitions look like some.
     let steadied = match performs {
         Some(_) => None,
         None => denoise::steadied(clip),

@@ -22,7 +22,7 @@ fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
         (
             "eyegaze_tier",
             "<eye_gaze direction=\"LE\"/>",
-            "gaze_left",
+            "gaze_left_degrees",
             "",
         ),
         ("mouthing_tier", "<mouth_picture picture=\"a\"/>", "aa", ""),

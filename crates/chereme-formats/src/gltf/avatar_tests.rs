@@ -123,8 +123,8 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let want = [
         ("happy", 0.5),
         ("lids.CB", 0.9),
-        ("gaze_left", 9.0),
-        ("gaze_up", -3.0),
+        ("gaze_left_degrees", 9.0),
+        ("gaze_up_degrees", -3.0),
     ];
     assert_eq!(last.collect::<Vec<_>>(), want);
     let hand = at("LeftHand");

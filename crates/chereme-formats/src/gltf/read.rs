@@ -365,7 +365,7 @@ fn morphs(document: &Document, weights: &[Weights], grid: &Grid) -> Option<Curve
                 continue;
             }
             Some(FaceNode::Gaze) => {
-                for (name, axis) in [("gaze_left", 0), ("gaze_up", 1)] {
+                for (name, axis) in [("gaze_left_degrees", 0), ("gaze_up_degrees", 1)] {
                     let degrees = |time| gaze(moved.keys.turn_at(time))[axis] as f32;
                     let values = grid.times().map(degrees).collect();
                     curves.push(Curve::new(name, Column::singles(values)));

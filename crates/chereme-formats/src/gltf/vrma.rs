@@ -53,7 +53,8 @@ pub enum WriteError {
 /// Returns a clip in metres of model space as VRMA.
 ///
 /// Rotations of joints that VRM does not know are added to those of the bones below them. Only the hips change their
-/// position. Expressions and gaze need a value in each frame; others are left out. Feet of the rest pose stand at height 0. A node's `extras.tip` is the end of a bone without a further joint.
+/// position. Expressions and gaze without a value in each frame are left out. Feet of the rest pose stand at height 0. A
+/// node's `extras.tip` is the end of a bone without a further joint.
 ///
 /// # Errors
 /// [`WriteError`] if the skeleton lacks hips or arms, the clip has no frame, or a place does not fit into the file.

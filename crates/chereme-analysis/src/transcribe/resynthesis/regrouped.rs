@@ -15,7 +15,10 @@ const REPEATS: [Repeat; 4] = [
     Repeat::Reverse,
 ];
 
-/// Returns lists of fewer actions: each lacks one of `actions`, or has a repeated one instead of several.
+/// The most actions in a row for which one repeated action is tried.
+const MOST: usize = 8;
+
+/// Returns lists of fewer actions: each lacks one of `actions`, or has a repeated one instead of several in a row.
 pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
     let mut all = Vec::new();
     if let [only] = actions {
@@ -28,8 +31,9 @@ pub(super) fn regrouped(actions: &[Motion]) -> Vec<Vec<Motion>> {
         all.push(other);
     }
     for first in 0..actions.len() {
-        for last in first + 1..actions.len() {
-            for action in &actions[first..=last.min(first + 1)] {
+        for last in first + 1..actions.len().min(first + MOST) {
+            // The second one is right if the first is cut wrongly.
+            for action in &actions[first..=first + 1] {
                 let once = once(action);
                 all.extend(REPEATS.map(|repeat| {
                     let instead = [repeated(once, repeat)];
