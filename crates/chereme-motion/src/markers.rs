@@ -217,6 +217,18 @@ impl Markers {
         }
     }
 
+    /// Returns the track with another unit and other axes for its numbers, if its points are in a room.
+    #[must_use]
+    pub fn in_room(self, convention: Convention) -> Self {
+        match self.space {
+            Space::World(_) => Self {
+                space: Space::World(convention),
+                ..self
+            },
+            Space::Image(_) | Space::Depth(_) => self,
+        }
+    }
+
     /// Returns the track with a note of the meaning of its `quality` columns.
     #[must_use]
     pub fn rated(self, quality: Quality) -> Self {

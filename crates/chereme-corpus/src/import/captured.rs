@@ -8,7 +8,7 @@ use chereme_formats::eaf::Transcript;
 use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks, another_rate};
 use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
-use chereme_motion::{Anatomy, Capture, Convention, Rate, Skeleton};
+use chereme_motion::{Anatomy, Capture, Convention, Rate, Skeleton, Space};
 use chereme_sign::{Choice, Remedy};
 
 use super::readers::Parse;
@@ -342,7 +342,7 @@ pub(super) fn import_tracks(
     read: Parse<Tracks>,
 ) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
-        return with_kept_rate(job, report);
+        return with_kept_form(job, report);
     }
     let bytes = job.bytes()?;
     job.report_progress(progress)?;
@@ -351,8 +351,26 @@ pub(super) fn import_tracks(
     if let Some(rate) = job.options.rate {
         findings.extend(set_rate(&mut document, rate));
     }
+    set_convention(&mut document, job.options);
     job.report_progress(progress)?;
     keep_take(job, document, findings, progress)
+}
+
+/// Gives measured points of a document the unit and the axes that the caller states.
+fn set_convention(document: &mut Tracks, options: &ImportOptions) {
+    for track in &mut document.tracks {
+        let Content::Markers(markers) = &mut track.content else {
+            continue;
+        };
+        let (Space::World(stated), Capture::Measured) = (*markers.space(), markers.capture())
+        else {
+            continue;
+        };
+        *markers = markers.clone().in_room(Convention {
+            metres_per_unit: options.metres_per_unit.unwrap_or(stated.metres_per_unit),
+            axes: options.axes.unwrap_or(stated.axes),
+        });
+    }
 }
 
 /// Gives the points from film of a document another rate; other contents keep that of their file. Returns what to say.
@@ -382,13 +400,35 @@ fn kept_rate(stated: Rate) -> Finding {
     )
 }
 
-/// Adds to the report of a file that was imported before that its points keep their rate, if another one is wanted.
-pub(super) fn with_kept_rate(job: &Job<'_>, mut report: FileReport) -> Result<FileReport> {
-    let (Some(rate), Some(recording)) = (job.options.rate, job.again) else {
+/// Adds to the report of a file that was imported before that its points keep their rate, unit and axes, if others are
+/// wanted.
+pub(super) fn with_kept_form(job: &Job<'_>, mut report: FileReport) -> Result<FileReport> {
+    let Some(recording) = job.again else {
         return Ok(report);
     };
     let rows = crate::db::tracks::tracks(job.connection, recording)?;
     let of_points = rows.iter().filter(|row| row.kind == TrackKind::Markers);
+    for row in of_points.clone() {
+        let form = crate::db::tracks::form(job.connection, row.id)?;
+        let (unit, axes) = (job.options.metres_per_unit, job.options.axes);
+        let other_unit = form
+            .metres_per_unit
+            .zip(unit)
+            .is_some_and(|(was, is)| was != is);
+        let axes = axes.map(|axes| axes.to_string());
+        if other_unit || form.axes.zip(axes).is_some_and(|(was, is)| was != is) {
+            report.findings.push(ReportFinding::warning(
+                "it was imported before, and its points keep their unit and axes",
+                Remedy::command(
+                    "undo the earlier import, and import it again with --unit and --axes",
+                ),
+            ));
+            break;
+        }
+    }
+    let Some(rate) = job.options.rate else {
+        return Ok(report);
+    };
     let kept = of_points.filter_map(|row| row.rate).find(|it| *it != rate);
     if let Some(kept) = kept {
         report.findings.push(ReportFinding::warning(

@@ -72,7 +72,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     };
     if files.is_empty() {
         if let Some(report) = job.unchanged() {
-            return captured::with_kept_rate(job, report);
+            return captured::with_kept_form(job, report);
         }
         let bytes = job.bytes()?;
         reader.push(None, &bytes).map_err(wrong)?;
@@ -95,7 +95,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         }
         job.hash = hex(&digest.finalize());
         if let Some(report) = job.unchanged() {
-            return captured::with_kept_rate(job, report);
+            return captured::with_kept_form(job, report);
         }
     }
     job.report_progress(progress)?;

@@ -15,6 +15,14 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "le fichier indique {rate}, qui reste : seuls les points d’un film prennent une autre cadence",
     ),
     (
+        "it was imported before, and its points keep their unit and axes",
+        "il a été importé auparavant, et ses points gardent leur unité et leurs axes",
+    ),
+    (
+        "undo the earlier import, and import it again with --unit and --axes",
+        "annulez l’importation précédente, et importez-le de nouveau avec --unit et --axes",
+    ),
+    (
         "it was imported before with {rate}, and its points keep that rate",
         "il a été importé auparavant avec {rate}, et ses points gardent cette cadence",
     ),

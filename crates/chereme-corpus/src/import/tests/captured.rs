@@ -36,6 +36,47 @@ fn points_that_were_imported_before_report_that_they_keep_their_rate() {
 }
 
 #[test]
+fn measured_markers_take_the_unit_and_the_axes_that_are_asked_for() {
+    let desk = Desk::new();
+    let take = desk.file("take.trc", TRC);
+    let axes = "+Z,-X".parse().expect("axes");
+    let message = "it was imported before, and its points keep their unit and axes";
+    let cases = [
+        ("plain", None, None, 0.001, "+Y,+X"),
+        ("unit", Some(0.01), None, 0.01, "+Y,+X"),
+        ("both", Some(0.01), Some(axes), 0.01, "+Z,-X"),
+    ];
+    for (name, metres_per_unit, axes, unit, expected) in cases {
+        let mut corpus = desk.corpus(&format!("{name}.chereme"));
+        let options = ImportOptions {
+            metres_per_unit,
+            axes,
+            ..ImportOptions::default()
+        };
+        for other in [options.clone(), options, ImportOptions::default()] {
+            let mut hear = unheard;
+            let paths = std::slice::from_ref(&take);
+            let report = corpus.import(paths, &other, &mut Progress::new(&mut hear));
+            let report = report.expect("imported").files.remove(0);
+            assert!(report.findings.iter().all(|it| it.message != message));
+        }
+        let form = crate::db::tracks::form(corpus.store.read(), 1).expect("a track");
+        assert_eq!(form.metres_per_unit, Some(unit), "{name}");
+        assert_eq!(form.axes.as_deref(), Some(expected), "{name}");
+        let feet = ImportOptions {
+            metres_per_unit: Some(0.3048),
+            ..ImportOptions::default()
+        };
+        let mut hear = unheard;
+        let paths = std::slice::from_ref(&take);
+        let again = corpus.import(paths, &feet, &mut Progress::new(&mut hear));
+        let again = again.expect("imported").files.remove(0);
+        let found = again.findings.iter().filter(|it| it.message == message);
+        assert_eq!(found.count(), 1, "{name}: {:?}", again.findings);
+    }
+}
+
+#[test]
 fn markers_faces_and_tiers_of_one_take_share_a_recording() {
     let folder = tempfile::tempdir().expect("a folder");
     let inbox = folder.path().join("in");
