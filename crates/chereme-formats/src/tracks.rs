@@ -85,6 +85,20 @@ pub(crate) fn rate_of(per_second: f64) -> Option<Rate> {
     None
 }
 
+/// Returns the metres of a unit of length by its name, such as `mm`, `(cm)` or `Inches`.
+pub(crate) fn metres_of_unit(name: &str) -> Option<f64> {
+    let name = name.trim_matches(|letter: char| !letter.is_alphabetic());
+    Some(match name.to_lowercase().as_str() {
+        "m" | "meter" | "meters" | "metre" | "metres" => 1.0,
+        "dm" | "decimeter" | "decimeters" | "decimetre" | "decimetres" => 0.1,
+        "cm" | "centimeter" | "centimeters" | "centimetre" | "centimetres" => 0.01,
+        "mm" | "millimeter" | "millimeters" | "millimetre" | "millimetres" => 0.001,
+        "in" | "inch" | "inches" => 0.0254,
+        "ft" | "foot" | "feet" => 0.3048,
+        _ => return None,
+    })
+}
+
 /// Returns moments as annotations of one frame each on a tier called `name`.
 pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> Option<Transcript> {
     if moments.is_empty() {

@@ -1,23 +1,28 @@
 //! TRC files: marker trajectories as tab-separated text, as OpenSim, Cortex and others write them.
 //!
-//! Dialects that are read: labels shifted by a column, missing line of axes, blanks instead of tabs in the
-//! header, empty cells, NaN or 0 0 0 for gaps, counts that are wrong. The numbers are kept as decimals.
+//! Dialects that are read: labels shifted by a column, one label for each coordinate, markers without a label, missing
+//! line of axes, missing column of times, blanks instead of tabs, decimal commas, lines that end with CR, empty cells,
+//! NaN or 0 0 0 for gaps, counts that are wrong. The numbers are kept as decimals.
+
+mod labels;
+mod times;
 
 #[cfg(test)]
 mod tests;
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use chereme_motion::column::{Column, Number};
-use chereme_motion::{Convention, Direction, Instant, Marker, Markers, Rate, Space, Times};
+use chereme_motion::{Convention, Direction, Instant, Marker, Markers, Space};
 
 use glam::DVec3;
 
 use crate::finding::Finding;
-use crate::scene::near_usual;
-use crate::table::{TableError, decode};
+use crate::table::{TableError, decode, is_gap};
 use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, rate_of, unique, up_of};
+use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, metres_of_unit, up_of};
+use labels::Labels;
 
 /// Why bytes could not be read as TRC.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -78,33 +83,49 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         TableError::NotText { line } => Error::NotText { line },
         _ => Error::NoTrc,
     })?;
-    if !text.trim_start().starts_with("PathFileType") {
+    let begin = text.trim_start();
+    let above = text.len() - begin.len();
+    let above = text[..above].matches('\n').count() as u64;
+    let text = begin;
+    if !text.starts_with("PathFileType") {
         return Err(Error::NoTrc);
     }
-    let mut lines = (1u64..).zip(text.lines());
+    // Old programs of the Macintosh end their lines with CR alone.
+    let text = match text.contains('\n') {
+        true => Cow::Borrowed(text),
+        false => Cow::Owned(text.replace('\r', "\n")),
+    };
+    let mut lines = (1 + above..).zip(text.lines());
     lines.next();
     let (_, keys) = lines
         .next()
         .ok_or(Error::Missing("DataRate and its like"))?;
     let (_, values) = lines.next().ok_or(Error::Missing("header values"))?;
-    let header: Vec<(&str, &str)> = keys
-        .split_whitespace()
-        .zip(values.split_whitespace())
-        .collect();
+    let header = header(keys, values);
     let header_value = |key: &str| {
         let found = header
             .iter()
             .find(|(name, _)| name.eq_ignore_ascii_case(key));
-        found.map(|(_, value)| *value)
+        found.map(|(_, value)| *value).filter(|it| !it.is_empty())
     };
     let (_, labels) = lines.next().ok_or(Error::Missing("labels"))?;
-    let names = names(labels, &mut findings);
+    let table = table(lines, &mut findings)?;
+    let markers = table
+        .axes
+        .or_else(|| header_value("NumMarkers")?.parse().ok());
+    let markers = markers.filter(|count| *count <= MOST_MARKERS);
+    let labels = Labels::read(&cells(labels), markers, table.width, &mut findings);
+    let names = labels.names;
     if names.is_empty() {
         return Err(Error::Empty);
     }
-    let mut rows = rows(lines, names.len())?;
+    let is_counted = markers.is_none_or(|count| count == names.len());
+    let mut rows = rows(&table, (names.len(), is_counted), labels.has_times)?;
     if rows.times.is_empty() {
         return Err(Error::Empty);
+    }
+    if !text.ends_with('\n') {
+        report_cut_row(&table, &mut findings);
     }
     check_count(
         "NumFrames",
@@ -119,7 +140,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         &mut findings,
     );
     open_noughts(&names, &mut rows.columns, &mut findings);
-    let (times, offset) = times(&rows.times, header_value("DataRate"), &mut findings)?;
+    let (times, offset) = times::read(&rows, header_value("DataRate"), &mut findings)?;
     let points = names
         .into_iter()
         .zip(rows.columns.chunks(3))
@@ -140,89 +161,162 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     Ok((tracks, findings.finish()))
 }
 
-/// Returns the labels after `Frame#` and `Time`, each once.
-fn names(line: &str, findings: &mut Findings) -> Vec<String> {
-    let cells = line
-        .split('\t')
-        .map(str::trim)
-        .filter(|cell| !cell.is_empty());
-    let is_head = |cell: &&str| {
-        let cell = cell.to_lowercase();
-        cell.starts_with("frame") || cell == "time"
-    };
-    let given: Vec<&str> = cells.skip_while(is_head).collect();
-    let names = unique(given.iter().copied(), "marker");
-    for (name, unique) in given
-        .iter()
-        .zip(&names)
-        .filter(|(name, unique)| name != unique)
-    {
-        findings.add("repeated labels", || {
-            Finding::note(
-                4,
-                format!("the label {name:?} occurs again; it is {unique:?} here"),
-            )
-        });
+/// Returns the header's keys with their values: word by word if there are as many, else those of the same column.
+fn header<'t>(keys: &'t str, values: &'t str) -> Vec<(Cow<'t, str>, &'t str)> {
+    let count = |line: &str| line.split_whitespace().count();
+    if count(keys) == count(values) || !keys.contains('\t') {
+        let keys = keys.split_whitespace().map(Cow::Borrowed);
+        return keys.zip(values.split_whitespace()).collect();
     }
-    names
+    let keys = keys
+        .split('\t')
+        .map(|key| Cow::Owned(key.replace(char::is_whitespace, "")));
+    keys.zip(values.split('\t').map(str::trim)).collect()
 }
 
-struct Rows {
-    times: Vec<(u64, Option<Number>)>,
-    columns: Vec<Vec<Option<Number>>>,
+/// Returns the cells of a line, which tabs or, if it has none, blanks divide.
+fn cells(line: &str) -> Vec<&str> {
+    match line.contains('\t') {
+        true => line.split('\t').map(str::trim).collect(),
+        false => line.split_whitespace().collect(),
+    }
 }
 
-fn rows<'t>(lines: impl Iterator<Item = (u64, &'t str)>, markers: usize) -> Result<Rows, Error> {
-    let expected = 2 + 3 * markers;
-    let mut rows = Rows {
-        times: Vec::new(),
-        columns: vec![Vec::new(); 3 * markers],
+/// The lines below the labels.
+struct Table<'t> {
+    /// The markers that the line of axes counts, if there is one.
+    axes: Option<usize>,
+    lines: Vec<(u64, Vec<&'t str>)>,
+    /// The cells of the widest row, empty ones at its end left out.
+    width: usize,
+    /// Whether numbers have a comma before their decimals.
+    has_commas: bool,
+}
+
+fn table<'t>(
+    lines: impl Iterator<Item = (u64, &'t str)>,
+    findings: &mut Findings,
+) -> Result<Table<'t>, Error> {
+    let mut table = Table {
+        axes: None,
+        lines: Vec::new(),
+        width: 0,
+        has_commas: false,
     };
+    let mut has_points = false;
     for (line, text) in lines {
-        let text = text.strip_suffix('\r').unwrap_or(text);
         if text.trim().is_empty() {
             continue;
         }
-        let cells: Vec<&str> = text.split('\t').map(str::trim).collect();
-        let is_axes = rows.times.is_empty()
+        let cells = cells(text);
+        let begins_with_x = |cell: &&&str| cell.starts_with(['X', 'x']);
+        if table.lines.is_empty()
             && cells
                 .iter()
                 .find(|cell| !cell.is_empty())
-                .is_some_and(|cell| cell.starts_with(['X', 'x']));
-        if is_axes {
+                .is_some_and(|cell| begins_with_x(&cell))
+        {
+            table.axes = Some(cells.iter().filter(begins_with_x).count());
             continue;
         }
+        has_points |= text.contains('.');
+        table.has_commas |= text.contains(',');
+        let filled = cells.iter().rposition(|cell| !cell.is_empty());
+        table.width = table.width.max(filled.map_or(0, |last| last + 1));
+        table.lines.push((line, cells));
+    }
+    table.has_commas &= !has_points;
+    if table.has_commas {
+        findings.push(Finding::note(
+            table.lines.first().map(|(line, _)| *line),
+            "the numbers have decimal commas",
+        ));
+    }
+    Ok(table)
+}
+
+/// The numbers of the rows.
+struct Rows {
+    /// The frame numbers.
+    frames: Vec<Option<Number>>,
+    times: Vec<Option<Number>>,
+    columns: Vec<Vec<Option<Number>>>,
+}
+
+/// Reads the rows of `markers` markers, whose count `is_counted` in the file too.
+fn rows(
+    table: &Table<'_>,
+    (markers, is_counted): (usize, bool),
+    has_times: bool,
+) -> Result<Rows, Error> {
+    let first = 1 + usize::from(has_times);
+    let expected = first + 3 * markers;
+    let has_cells = is_counted || table.width + 3 > expected;
+    let mut rows = Rows {
+        frames: Vec::new(),
+        times: Vec::new(),
+        columns: vec![Vec::new(); 3 * markers],
+    };
+    for (line, cells) in &table.lines {
         // Rows may end with extra tabs, or omit empty cells at their end.
         let extra = cells.len() > expected && cells[expected..].iter().any(|cell| !cell.is_empty());
-        if extra || cells.len() < 3 {
+        if extra || cells.len() < 3 || !has_cells {
             return Err(Error::Width {
-                line,
+                line: *line,
                 found: cells.len(),
                 markers,
                 expected,
             });
         }
-        let number = |cell: &str| number(cell, line);
-        rows.times.push((line, number(cells[1])?));
+        let number = |cell: &str| number(cell, *line, table.has_commas);
+        rows.frames.push(number(cells[0]).unwrap_or(None));
+        rows.times.push(match has_times {
+            true => number(cells[1])?,
+            false => None,
+        });
         for (at, column) in rows.columns.iter_mut().enumerate() {
-            column.push(number(cells.get(at + 2).copied().unwrap_or_default())?);
+            column.push(number(cells.get(at + first).copied().unwrap_or_default())?);
         }
     }
     Ok(rows)
 }
 
 /// Reads a cell; an empty one and NaN are gaps.
-fn number(cell: &str, line: u64) -> Result<Option<Number>, Error> {
-    if cell.is_empty() || cell.eq_ignore_ascii_case("nan") {
+fn number(cell: &str, line: u64, has_commas: bool) -> Result<Option<Number>, Error> {
+    if is_gap(cell) {
         return Ok(None);
     }
-    let parsed = Number::parse(cell.as_bytes())
+    let point = match has_commas {
+        true => Cow::Owned(cell.replacen(',', ".", 1)),
+        false => Cow::Borrowed(cell),
+    };
+    let parsed = Number::parse(point.as_bytes())
         .ok()
         .filter(|number| number.to_f64().is_finite());
     parsed.map(Some).ok_or_else(|| Error::Number {
         line,
         cell: cell.chars().take(40).collect(),
     })
+}
+
+/// Reports a last row without the end of its line that has fewer cells than the row before.
+fn report_cut_row(table: &Table<'_>, findings: &mut Findings) {
+    let [.., (_, before), (line, last)] = table.lines.as_slice() else {
+        return;
+    };
+    if last.len() < before.len() {
+        findings.push(
+            Finding::warning(
+                *line,
+                format!(
+                    "the last row has {} cells and the row before {}; the file may be cut short, and the last number of that row too",
+                    last.len(),
+                    before.len()
+                ),
+            )
+            .with_remedy("export the take again from the program that recorded it"),
+        );
+    }
 }
 
 /// The least distance of a marker from 0, as a share of its usual one, for its places at exactly 0 0 0 to be gaps.
@@ -291,6 +385,9 @@ fn open_noughts(names: &[String], columns: &mut [Vec<Option<Number>>], findings:
     }
 }
 
+/// The most markers that a header may promise.
+const MOST_MARKERS: usize = 100_000;
+
 /// The number of markers that a finding names.
 const NAMED: usize = 5;
 
@@ -305,89 +402,13 @@ fn check_count(key: &str, stated: Option<&str>, found: usize, findings: &mut Fin
     }
 }
 
-/// Returns an even rate if the times are even, else the times themselves; and the time of the first frame.
-fn times(
-    rows: &[(u64, Option<Number>)],
-    stated: Option<&str>,
-    findings: &mut Findings,
-) -> Result<(Times, Instant), Error> {
-    let rate = stated
-        .and_then(|text| text.parse::<f64>().ok())
-        .and_then(rate_of);
-    let seconds: Option<Vec<f64>> = rows
-        .iter()
-        .map(|(_, time)| Some(time.as_ref()?.to_f64()))
-        .collect();
-    let rate = match (rate, seconds.as_deref().and_then(rate_of_times)) {
-        (Some(rate), _) => rate,
-        (None, Some(rate)) => {
-            let stated = stated.unwrap_or_default();
-            let text = format!("DataRate is {stated:?}; the times of the rows show {rate}");
-            findings.push(Finding::warning(3, text));
-            rate
-        }
-        (None, None) => {
-            let found = stated.unwrap_or_default().chars().take(40).collect();
-            return Err(Error::Rate { found });
-        }
-    };
-    let Some(seconds) = seconds else {
-        findings.push(Finding::warning(
-            None,
-            "some rows have no time; frames are taken to be even",
-        ));
-        return Ok((Times::Even(rate), Instant::ZERO));
-    };
-    let offset = Instant::from_seconds(seconds[0]);
-    // Times are written with few decimals.
-    let even = |rate: Rate| {
-        let slack = 0.5 * rate.frame_time();
-        (0..).zip(&seconds).all(|(frame, time)| {
-            let at = f64::from(frame) * rate.frame_time();
-            (time - seconds[0] - at).abs() <= slack
-        })
-    };
-    if even(rate) {
-        return Ok((Times::Even(rate), offset));
-    }
-    findings.push(Finding::note(
-        None,
-        "the times do not follow DataRate; every frame has its own time",
-    ));
-    let listed = rows.iter().map(|(_, time)| time.clone());
-    let shifted: Vec<f64> = seconds.iter().map(|time| time - seconds[0]).collect();
-    let column = if seconds[0] == 0.0 {
-        Column::decimals(listed)
-    } else {
-        Column::doubles(shifted)
-    };
-    let times = Times::listed(column).map_err(|error| Error::Track(error.to_string()))?;
-    Ok((times, offset))
-}
-
-/// Returns the rate of moments in seconds, from the median of their distances.
-fn rate_of_times(seconds: &[f64]) -> Option<Rate> {
-    let mut steps: Vec<f64> = seconds.windows(2).map(|pair| pair[1] - pair[0]).collect();
-    steps.sort_by(f64::total_cmp);
-    let step = *steps.get(steps.len() / 2)?;
-    rate_of(near_usual(1.0 / step))
-}
-
 fn convention(unit: Option<&str>, points: &[Marker], findings: &mut Findings) -> Convention {
-    let metres_per_unit = match unit.unwrap_or_default().to_lowercase().as_str() {
-        "m" | "meters" => 1.0,
-        "cm" => 0.01,
-        "mm" => 0.001,
-        "in" => 0.0254,
-        _ => {
-            let text = format!(
-                "the unit is {:?}; millimetres are assumed",
-                unit.unwrap_or_default()
-            );
-            findings.push(Finding::note(3, text));
-            0.001
-        }
-    };
+    let unit = unit.unwrap_or_default();
+    let metres_per_unit = metres_of_unit(unit).unwrap_or_else(|| {
+        let text = format!("the unit is {unit:?}; millimetres are assumed");
+        findings.push(Finding::note(3, text));
+        0.001
+    });
     let up = up_of(points).unwrap_or_else(|| {
         let text = "no markers of head and feet show which axis is up; +Y is taken";
         findings.push(Finding::note(None, text).with_remedy("name the axes when importing"));

@@ -378,6 +378,31 @@ pub(super) const READING: &[(&str, &str)] = &[
         "l’étiquette {name} revient ; elle est {other} ici",
     ),
     (
+        "a marker has no label; it is {name} here",
+        "un marqueur n’a pas d’étiquette ; il est {name} ici",
+    ),
+    ("markers without a label", "marqueurs sans étiquette"),
+    (
+        "the numbers have decimal commas",
+        "les nombres ont des virgules décimales",
+    ),
+    (
+        "the last row has {n} cells and the row before {before}; the file may be cut short, and the last number of that row too",
+        "cellules de la dernière ligne : {n}, de la précédente : {before} ; le fichier est peut-être tronqué, et le dernier nombre de cette ligne aussi",
+    ),
+    (
+        "export the take again from the program that recorded it",
+        "exportez de nouveau la prise depuis le programme qui l’a enregistrée",
+    ),
+    (
+        "the times are milliseconds, as DataRate shows; they are read as such",
+        "les temps sont des millisecondes, comme DataRate le montre ; ils sont lus ainsi",
+    ),
+    (
+        "some rows have no time; the numbers of the frames and DataRate show it",
+        "des lignes n’ont pas de temps ; les numéros des images et DataRate le montrent",
+    ),
+    (
         "{key} says {n}, and the file holds {found}",
         "{key} dit {n}, et le fichier contient {found}",
     ),

@@ -272,6 +272,23 @@ pub(crate) fn decode<'b>(
     }
 }
 
+/// Returns whether a cell of a column of numbers is a gap: empty, or as programs write a number that is none.
+pub(crate) fn is_gap(cell: &str) -> bool {
+    const WORDS: [&str; 10] = [
+        "nan",
+        "-nan",
+        "nan(ind)",
+        "-nan(ind)",
+        "1.#ind",
+        "-1.#ind",
+        "1.#qnan",
+        "-1.#qnan",
+        "na",
+        "n/a",
+    ];
+    cell.is_empty() || WORDS.iter().any(|word| cell.eq_ignore_ascii_case(word))
+}
+
 fn printable(text: Cow<'_, str>) -> Result<Cow<'_, str>, TableError> {
     let control = |b: &u8| *b < 0x20 && !matches!(b, b'\t' | b'\n' | b'\r' | 0x0b | 0x0c);
     match text.bytes().position(|b| control(&b)) {

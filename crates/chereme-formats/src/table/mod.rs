@@ -10,6 +10,6 @@ mod rows;
 
 pub use cells::TableError;
 pub(crate) use cells::{
-    COLUMNS, Cells, PADDED, Row, WINDOWS, decode, lines_above_titles, listed, western,
+    COLUMNS, Cells, PADDED, Row, WINDOWS, decode, is_gap, lines_above_titles, listed, western,
 };
 pub use rows::{tab_rows, write_tab_rows};

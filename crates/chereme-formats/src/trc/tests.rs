@@ -50,6 +50,166 @@ fn dialects_read_to_equal_data() {
 }
 
 #[test]
+fn labels_and_rows_of_other_programs_read_to_equal_places() {
+    let (expected, _) = markers(PLAIN);
+    let timed = |title: &str| PLAIN.replace("\tTime\t", &format!("\t{title}\t"));
+    let labelled = |line: &str| PLAIN.replace("Frame#\tTime\tLSHO\t\t\tRSHO\t\t", line);
+    let columnless = PLAIN
+        .replace("\tTime\t", "\t")
+        .replace("\t\tX1", "\tX1")
+        .replace("\t0.000000", "")
+        .replace("\t0.010000", "");
+    let dialects = [
+        ("a unit of times", timed("Time (s)")),
+        ("a unit of times in brackets", timed("time[s]")),
+        (
+            "a label for each coordinate",
+            labelled("Frame#\tTime\tLSHO\tLSHO\tLSHO\tRSHO\tRSHO\tRSHO"),
+        ),
+        (
+            "labels with the coordinate",
+            labelled("Frame#\tTime\tLSHO.X\tLSHO.Y\tLSHO.Z\tRSHO_x\tRSHO_y\tRSHO_z"),
+        ),
+        ("no times", columnless),
+        ("ends of lines of the Macintosh", PLAIN.replace('\n', "\r")),
+        ("a blank line above", format!("\n\n{PLAIN}")),
+        (
+            "blanks instead of tabs",
+            PLAIN.replace("1.6\t\t3", "1.6\tnan\t3").replace('\t', " "),
+        ),
+        (
+            "decimal commas",
+            PLAIN.replace('.', ",").replace("a,trc", "a.trc"),
+        ),
+        (
+            "another word for a gap",
+            PLAIN.replace("1.6\t\t3", "1.6\t-1.#IND\t3"),
+        ),
+        (
+            "a header without the number of frames",
+            PLAIN.replace("100\t100\t2\t2\tmm", "100\t100\t\t2\tmm"),
+        ),
+    ];
+    for (name, dialect) in dialects {
+        let (found, findings) = markers(&dialect);
+        assert_eq!(found, expected, "{name}: {findings:?}\n{dialect}");
+    }
+}
+
+#[test]
+fn a_marker_without_a_label_keeps_its_place_among_the_others() {
+    for (from, to, names) in [
+        ("LSHO\t\t\tRSHO", "\t\t\tRSHO", ["marker 1", "RSHO"]),
+        ("LSHO\t\t\tRSHO", "LSHO\t\t\t", ["LSHO", "marker 2"]),
+    ] {
+        let text = PLAIN.replace(from, to);
+        let (found, findings) = markers(&text);
+        let given: Vec<&str> = found.points().iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(given, names);
+        assert!(
+            findings[0].message.contains("a marker has no label"),
+            "{findings:?}"
+        );
+    }
+    let middle = PLAIN
+        .replace("RSHO", "\t\t\tRSHO")
+        .replace("\tZ2\n", "\tZ2\tX3\tY3\tZ3\n")
+        .replace("\t2\tmm", "\t3\tmm")
+        .replace("4\t5\t6\n", "7\t8\t9\t4\t5\t6\n");
+    let (found, _) = markers(&middle);
+    let given: Vec<&str> = found.points().iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(given, ["LSHO", "marker 2", "RSHO"]);
+    assert_eq!(found.points()[2].at(1).map(|at| at.z), Some(6.0));
+}
+
+#[test]
+fn labels_that_the_rows_do_not_hold_are_refused() {
+    let text = PLAIN.replace("LSHO\t", "Trial\t\t\tLSHO\t");
+    let error = read(text.as_bytes())
+        .expect_err("a label too many")
+        .to_string();
+    assert!(error.contains("3 markers need 11"), "{error}");
+}
+
+#[test]
+fn times_with_few_decimals_or_in_milliseconds_or_missing_show_the_rate() {
+    let rows = |times: &[&str], frames: &[u32]| {
+        let head = PLAIN.split("1\t0.000000").next().unwrap_or_default();
+        let head = head.replace("\n100\t", "\n120\t");
+        let rows = times.iter().zip(frames);
+        let rows = rows.map(|(time, frame)| format!("{frame}\t{time}\t1\t2\t3\t4\t5\t6\n"));
+        head + &rows.collect::<String>()
+    };
+    let cases: [(&str, &[&str], &[u32], Option<u32>, &str); 4] = [
+        (
+            "few decimals",
+            &["0.00", "0.01", "0.02", "0.02", "0.03", "0.04"],
+            &[1, 2, 3, 4, 5, 6],
+            Some(120),
+            "",
+        ),
+        (
+            "milliseconds",
+            &["0", "8.3", "16.7", "25"],
+            &[1, 2, 3, 4],
+            Some(120),
+            "the times are milliseconds",
+        ),
+        (
+            "no times",
+            &["", "", ""],
+            &[1, 2, 3],
+            Some(120),
+            "frames are taken to be even",
+        ),
+        (
+            "no times and frames left out",
+            &["", "", ""],
+            &[1, 2, 14],
+            None,
+            "the numbers of the frames",
+        ),
+    ];
+    for (name, times, frames, rate, finding) in cases {
+        let (found, findings) = markers(&rows(times, frames));
+        assert_eq!(found.times().rate().map(|it| it.frames()), rate, "{name}");
+        assert!(
+            finding.is_empty() || findings.iter().any(|it| it.message.contains(finding)),
+            "{name}: {findings:?}"
+        );
+        if rate.is_none() {
+            let last = found.times().instant(2).seconds();
+            assert!((last - 13.0 / 120.0).abs() < 1e-5, "{last}");
+        }
+    }
+}
+
+#[test]
+fn units_are_known_by_their_words_and_a_row_that_is_cut_is_reported() {
+    for (unit, metres) in [
+        ("centimeters", 0.01),
+        ("(cm)", 0.01),
+        ("Inches", 0.0254),
+        ("Metre", 1.0),
+        ("ft", 0.3048),
+        ("millimeters", 0.001),
+    ] {
+        let (found, _) = markers(&PLAIN.replace("mm", unit));
+        let Space::World(convention) = found.space() else {
+            panic!("a room");
+        };
+        assert_eq!(convention.metres_per_unit, metres, "{unit}");
+    }
+    for (cut, is_reported) in [(1, false), (3, true)] {
+        let (_, findings) = markers(&PLAIN[..PLAIN.len() - cut]);
+        let found = findings
+            .iter()
+            .any(|it| it.message.contains("may be cut short"));
+        assert_eq!(found, is_reported, "{findings:?}");
+    }
+}
+
+#[test]
 fn places_at_nought_are_gaps_of_markers_that_are_elsewhere_else() {
     /// Places of LSHO and of RSHO, the gaps that they become, and the warnings.
     type Case = (
