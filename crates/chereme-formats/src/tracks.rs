@@ -218,34 +218,41 @@ fn split_label(name: &str) -> (&str, &str) {
 fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
     let mut sum = DVec3::ZERO;
     let up = up.vector();
-    for left in markers {
-        for (from, to) in [
-            ("L", "R"),
-            ("l_", "r_"),
-            ("Left", "Right"),
-            ("left", "right"),
-        ] {
-            let (subject, label) = split_label(&left.name);
-            let Some(rest) = label.strip_prefix(from) else {
-                continue;
-            };
-            if !rest.chars().any(char::is_alphabetic) {
-                continue;
-            }
-            let other = format!("{subject}{to}{rest}");
-            let Some(right) = markers
-                .iter()
-                .find(|it| it.name == other && it.group == left.group)
-            else {
-                continue;
-            };
-            let frames = left.place.first().map_or(0, Column::len);
-            let both = (0..frames).find_map(|frame| Some(left.at(frame)? - right.at(frame)?));
-            sum += both.unwrap_or(DVec3::ZERO).normalize_or_zero();
-        }
+    let names: Vec<String> = markers.iter().map(|it| it.name.to_lowercase()).collect();
+    for (left, name) in markers.iter().zip(&names) {
+        let Some(other) = other_side(name) else {
+            continue;
+        };
+        let mut found = markers.iter().zip(&names);
+        let Some((right, _)) = found.find(|(it, name)| **name == other && it.group == left.group)
+        else {
+            continue;
+        };
+        let frames = left.place.first().map_or(0, Column::len);
+        let both = (0..frames).find_map(|frame| Some(left.at(frame)? - right.at(frame)?));
+        sum += both.unwrap_or(DVec3::ZERO).normalize_or_zero();
     }
     let across = sum - up * sum.dot(up);
     (across.length() > 0.5).then(|| Direction::nearest(across))
+}
+
+/// Returns the name of the right marker for the name of a left one in small letters.
+fn other_side(name: &str) -> Option<String> {
+    let (subject, label) = split_label(name);
+    let begins = [("left", "right"), ("l", "r")];
+    let ends = [("left", "right"), ("_l", "_r"), (".l", ".r"), (" l", " r")];
+    let begin = begins
+        .iter()
+        .find_map(|(left, right)| Some((label.strip_prefix(left)?, *right)));
+    let end = ends
+        .iter()
+        .find_map(|(left, right)| Some((label.strip_suffix(left)?, *right)));
+    let (rest, other) = match (begin, end) {
+        (_, Some((rest, right))) => (rest, format!("{subject}{rest}{right}")),
+        (Some((rest, right)), None) => (rest, format!("{subject}{right}{rest}")),
+        (None, None) => return None,
+    };
+    rest.chars().any(char::is_alphabetic).then_some(other)
 }
 
 #[cfg(test)]
@@ -275,6 +282,20 @@ mod tests {
             pair("Anna:LSHO", "Anna:RSHO"),
             Some("+Z".parse().expect("a direction"))
         );
+        for (left, right) in [
+            ("lsho", "rsho"),
+            ("anna:lsho", "anna:rsho"),
+            ("Sho_L", "Sho_R"),
+            ("Shoulder.l", "Shoulder.r"),
+            ("shoulder_left", "shoulder_right"),
+            ("LeftShoulder", "RightShoulder"),
+        ] {
+            assert_eq!(
+                pair(left, right),
+                Some("+Z".parse().expect("a direction")),
+                "{left}"
+            );
+        }
         assert_eq!(pair("L1", "R1"), None);
         assert_eq!(pair("Lena:LSHO", "Rita:RSHO"), None);
     }
