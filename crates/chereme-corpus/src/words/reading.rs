@@ -274,6 +274,22 @@ pub(super) const READING: &[(&str, &str)] = &[
         "le fichier annonce {n} images et en contient {found}",
     ),
     (
+        "the file states {n} frames, and its data has room for {more} more, which are left out",
+        "images annoncées par le fichier : {n} ; ses données ont de la place pour {more} autres, qui sont laissées de côté",
+    ),
+    (
+        "correct the number of the last frame in the file's header if they are frames",
+        "corrigez le numéro de la dernière image dans l’en-tête du fichier si ce sont des images",
+    ),
+    (
+        "the header states {other} frames a second and POINT:RATE {n}, which are taken",
+        "l’en-tête annonce {other} images par seconde et POINT:RATE {n}, qui sont prises",
+    ),
+    (
+        "POINT:Y_SCREEN says that {axis} is up, and the markers of head and feet show {shown}, which is taken",
+        "POINT:Y_SCREEN dit que {axis} est vers le haut, et les marqueurs de tête et de pieds montrent {shown}, qui est pris",
+    ),
+    (
         "it begins with frame {n} of its capture; that is 0 s here",
         "il commence à l’image {n} de sa capture ; c’est 0 s ici",
     ),
@@ -419,8 +435,8 @@ pub(super) const READING: &[(&str, &str)] = &[
         "l’unité est {unit} ; le millimètre est supposé",
     ),
     (
-        "no markers of head and feet show which axis is up; +Y is taken",
-        "aucun marqueur de tête et de pieds ne montre l’axe vertical ; +Y est pris",
+        "no markers of head and feet show which axis is up; {axis} is taken",
+        "aucun marqueur de tête et de pieds ne montre l’axe vertical ; {axis} est pris",
     ),
     (
         "no pair of markers such as LSHO and RSHO shows which side is left; the first axis that fits is taken",

@@ -20,7 +20,9 @@ use glam::DVec3;
 use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::timecode;
-use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, events, rate_of, unique};
+use crate::tracks::{
+    Content, FileTrack, Tracks, axes_with_up, events, metres_of_unit, rate_of, unique, up_of,
+};
 use raw::Document;
 
 pub use raw::Error;
@@ -39,6 +41,27 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
             format!(
                 "the file promises {} frames and holds {}",
                 document.promised_frames, document.frames
+            ),
+        ));
+    }
+    if document.unread_frames > 0 {
+        findings.push(
+            Finding::warning(
+                None,
+                format!(
+                    "the file states {} frames, and its data has room for {} more, which are left out",
+                    document.frames, document.unread_frames
+                ),
+            )
+            .with_remedy("correct the number of the last frame in the file's header if they are frames"),
+        );
+    }
+    if let Some(other) = document.other_rate {
+        findings.push(Finding::warning(
+            None,
+            format!(
+                "the header states {other} frames a second and POINT:RATE {}, which are taken",
+                document.rate
             ),
         ));
     }
@@ -113,7 +136,12 @@ impl Reader<'_> {
             }
         }
         let labels = self.labels();
-        (0..self.document.points).partition(|at| !outputs.contains(labels[*at].as_str()))
+        // The list may leave out the subject of a label such as `Anna:LElbowAngles`.
+        let bare = |label: &str| label.rsplit(':').next().unwrap_or_default().to_owned();
+        (0..self.document.points).partition(|at| {
+            let label = labels[*at].as_str();
+            !outputs.contains(label) && !outputs.contains(bare(label).as_str())
+        })
     }
 
     fn markers(&self, points: &[usize], findings: &mut Findings) -> Option<Markers> {
@@ -197,32 +225,44 @@ impl Reader<'_> {
     fn convention(&self, markers: &[Marker], findings: &mut Findings) -> Convention {
         let parameters = &self.document.parameters;
         let unit = parameters.text("POINT:UNITS").unwrap_or_default();
-        let metres_per_unit = match unit.to_lowercase().as_str() {
-            "m" | "meter" | "meters" | "metre" | "metres" => 1.0,
-            "cm" => 0.01,
-            "in" | "inch" | "inches" => 0.0254,
-            "mm" => 0.001,
-            _ => {
-                findings.push(Finding::note(
-                    None,
-                    format!("the unit of points is {unit:?}; millimetres are assumed"),
-                ));
-                0.001
-            }
-        };
-        let screen = parameters.text("POINT:Y_SCREEN").and_then(|axis| {
-            let axis = if axis.starts_with(['+', '-']) {
-                axis.to_owned()
-            } else {
-                format!("+{axis}")
-            };
-            axis.to_uppercase().parse::<Direction>().ok()
+        let metres_per_unit = metres_of_unit(unit).unwrap_or_else(|| {
+            findings.push(Finding::note(
+                None,
+                format!("the unit of points is {unit:?}; millimetres are assumed"),
+            ));
+            0.001
         });
-        let up = screen.unwrap_or_else(|| Direction::nearest(DVec3::Z));
+        let up = self.up(markers, findings);
         let axes = axes_with_up(markers, up, findings);
         Convention {
             metres_per_unit,
             axes,
+        }
+    }
+
+    /// Returns the axis that is up: that of the markers of head and feet, else that of the screen, else Z.
+    fn up(&self, markers: &[Marker], findings: &mut Findings) -> Direction {
+        const REMEDY: &str = "name the axes when importing";
+        let text = self.document.parameters.text("POINT:Y_SCREEN");
+        let screen = text.and_then(|axis| {
+            let sign = if axis.contains('-') { '-' } else { '+' };
+            let axis = axis.trim_matches(['+', '-', ' ']).to_uppercase();
+            format!("{sign}{axis}").parse::<Direction>().ok()
+        });
+        match (screen, up_of(markers)) {
+            (Some(screen), Some(shown)) if screen != shown => {
+                let text = format!(
+                    "POINT:Y_SCREEN says that {screen} is up, and the markers of head and feet show {shown}, which is taken"
+                );
+                findings.push(Finding::warning(None, text).with_remedy(REMEDY));
+                shown
+            }
+            (Some(up), _) | (None, Some(up)) => up,
+            (None, None) => {
+                let text = "no markers of head and feet show which axis is up; +Z is taken";
+                findings.push(Finding::note(None, text).with_remedy(REMEDY));
+                Direction::nearest(DVec3::Z)
+            }
         }
     }
 

@@ -10,6 +10,10 @@ const BLOCK: usize = 512;
 const KEY: u8 = 0x50;
 /// The word of the header that says that it holds a table of events.
 const EVENTS_KEY: u16 = 12345;
+/// The number of frames at which a count of 16 bits begins again.
+const TURN: usize = 65_536;
+/// The share by which the rates of header and parameter differ if they are two rates, not one that was rounded.
+const RATES_DIFFER: f64 = 1e-3;
 /// The most parameters; a file with more parameters, points or channels is not a capture.
 const MOST_PARAMETERS: usize = 10_000;
 
@@ -82,13 +86,8 @@ impl Parameters {
     #[must_use]
     pub fn texts(&self, name: &str) -> Vec<&str> {
         let mut texts = Vec::new();
-        for part in 1..=255 {
-            let key = if part == 1 {
-                name.to_owned()
-            } else {
-                format!("{name}{part}")
-            };
-            let Some(Value::Texts(more)) = self.0.get(&key) else {
+        for part in parts(name) {
+            let Some(Value::Texts(more)) = self.0.get(&part) else {
                 break;
             };
             texts.extend(more.iter().map(String::as_str));
@@ -113,26 +112,32 @@ impl Parameters {
         texts.find(|text| text.matches([':', ';']).count() >= 2)
     }
 
-    /// Returns the numbers of a parameter; integers are unsigned.
+    /// Returns the numbers of a parameter, with those of its continuations; integers are unsigned.
     #[must_use]
     pub fn numbers(&self, name: &str) -> Vec<f64> {
-        match self.0.get(name) {
-            Some(Value::Integers(values)) => values.iter().map(|value| f64::from(*value)).collect(),
-            Some(Value::Reals(values)) => values.iter().map(|value| f64::from(*value)).collect(),
-            _ => Vec::new(),
-        }
+        self.all_numbers(name, |word| f64::from(word))
     }
 
-    /// Returns the numbers of a parameter; integers are signed.
+    /// Returns the numbers of a parameter, with those of its continuations; integers are signed.
     #[must_use]
     pub fn signed(&self, name: &str) -> Vec<f64> {
-        match self.0.get(name) {
-            Some(Value::Integers(values)) => values
-                .iter()
-                .map(|value| f64::from(*value as i16))
-                .collect(),
-            _ => self.numbers(name),
+        self.all_numbers(name, |word| f64::from(word as i16))
+    }
+
+    fn all_numbers(&self, name: &str, of_word: impl Fn(u16) -> f64) -> Vec<f64> {
+        let mut numbers = Vec::new();
+        for part in parts(name) {
+            match self.0.get(&part) {
+                Some(Value::Integers(values)) => {
+                    numbers.extend(values.iter().map(|it| of_word(*it)));
+                }
+                Some(Value::Reals(values)) => {
+                    numbers.extend(values.iter().map(|it| f64::from(*it)))
+                }
+                _ => break,
+            }
         }
+        numbers
     }
 
     /// Returns the first number of a parameter.
@@ -140,6 +145,14 @@ impl Parameters {
     pub fn number(&self, name: &str) -> Option<f64> {
         self.numbers(name).first().copied()
     }
+}
+
+/// Returns the names of a parameter and of its continuations; one holds at most 255 values.
+fn parts(name: &str) -> impl Iterator<Item = String> + '_ {
+    (1..=255).map(move |part| match part {
+        1 => name.to_owned(),
+        part => format!("{name}{part}"),
+    })
 }
 
 /// The file: header, parameters and the position of the data.
@@ -155,14 +168,20 @@ pub struct Document {
     pub channels: usize,
     /// Analog samples of a channel in each frame.
     pub samples: usize,
+    /// Analog numbers in each frame.
+    per_frame: usize,
     /// The number of the first frame, counted from 1.
     pub first_frame: u32,
     /// The frames that header and parameters promise.
     pub promised_frames: usize,
-    /// The frames that the data has room for, at most those promised.
+    /// The frames that the data has room for, at most those promised; more if 16 bits are too few for the promise.
     pub frames: usize,
+    /// The frames that the data has room for beyond those.
+    pub unread_frames: usize,
     /// Frames a second.
     pub rate: f64,
+    /// The frames a second of the header if they differ from those of the parameter, which count.
+    pub other_rate: Option<f64>,
     /// The unit of points that are stored as integers; negative if points are floats.
     pub scale: f32,
     /// The events of the header: seconds and label.
@@ -192,7 +211,7 @@ impl Document {
     }
 
     fn frame_bytes(&self) -> usize {
-        (self.points * 4 + self.channels * self.samples) * self.word()
+        (self.points * 4 + self.per_frame) * self.word()
     }
 
     fn number(&self, bytes: &[u8], at: usize) -> Option<f32> {
@@ -273,18 +292,24 @@ pub fn read(bytes: &[u8]) -> Result<Document, Error> {
     let points = parameters
         .number("POINT:USED")
         .unwrap_or(f64::from(word(2))) as usize;
-    let samples = usize::from(word(10));
     let per_frame = usize::from(word(3));
-    let channels = per_frame.checked_div(samples).unwrap_or(0);
     let (first, last) = frames(&parameters, word(4), word(5));
-    let rate = f64::from(real(11));
-    let rate = parameters
-        .number("POINT:RATE")
-        .filter(|rate| *rate > 0.0)
-        .unwrap_or(rate);
+    let header_rate = f64::from(real(11));
+    let stated = parameters.number("POINT:RATE").filter(|rate| *rate > 0.0);
+    let samples = samples(&parameters, usize::from(word(10)), per_frame, stated);
+    let channels = per_frame.checked_div(samples).unwrap_or(0);
+    let of_analog = parameters
+        .number("ANALOG:RATE")
+        .filter(|_| samples > 0)
+        .map(|rate| rate / samples as f64);
+    let rate = stated
+        .or(Some(header_rate).filter(|rate| *rate > 0.0))
+        .or(of_analog)
+        .unwrap_or(header_rate);
     if !rate.is_finite() || rate <= 0.0 {
         return Err(Error::Rate(rate.to_string()));
     }
+    let differs = header_rate > 0.0 && (header_rate / rate - 1.0).abs() > RATES_DIFFER;
     let scale = parameters
         .number("POINT:SCALE")
         .map_or(real(7), |scale| scale as f32);
@@ -297,10 +322,13 @@ pub fn read(bytes: &[u8]) -> Result<Document, Error> {
         points: points.min(MOST_PARAMETERS),
         channels: channels.min(MOST_PARAMETERS),
         samples,
+        per_frame,
         first_frame: first,
         promised_frames: (last + 1).saturating_sub(first) as usize,
         frames: 0,
+        unread_frames: 0,
         rate,
+        other_rate: Some(header_rate).filter(|_| differs),
         scale,
         header_events: header_events(header, processor),
         data_at: (data_block as usize).saturating_sub(1) * BLOCK,
@@ -310,12 +338,65 @@ pub fn read(bytes: &[u8]) -> Result<Document, Error> {
     if size == 0 {
         return Err(Error::Empty);
     }
+    // The parameters may follow the data.
+    let end = match parameters_at > document.data_at {
+        true => parameters_at,
+        false => bytes.len(),
+    };
     let data = bytes
-        .len()
-        .checked_sub(document.data_at)
+        .get(document.data_at..end)
         .ok_or(Error::Short("data"))?;
-    document.frames = document.promised_frames.min(data / size);
+    document.count_frames(data, size, word(5));
     Ok(document)
+}
+
+impl Document {
+    /// Counts the frames of the data: those promised, or more if the header's 16 bits are too few for them.
+    fn count_frames(&mut self, data: &[u8], size: usize, last: u16) {
+        let blank = |frame: &[u8]| frame.iter().all(|byte| *byte == 0);
+        let mut room = data.len() / size;
+        // Zeros fill the last block.
+        while room > self.promised_frames
+            && (data.len() - (room - 1) * size) <= BLOCK
+            && blank(&data[(room - 1) * size..room * size])
+        {
+            room -= 1;
+        }
+        let named = self.parameters.number("POINT:FRAMES").unwrap_or(0.0) as usize;
+        let turned = room - room.saturating_sub(self.promised_frames) % TURN;
+        if (self.promised_frames + 1..=room).contains(&named) {
+            self.promised_frames = named;
+        }
+        let is_full = last == u16::MAX && self.promised_frames + self.first_frame as usize == TURN;
+        if room > self.promised_frames && is_full {
+            self.promised_frames = room;
+        } else if turned > self.promised_frames && (room - turned) * size < BLOCK {
+            self.promised_frames = turned;
+        }
+        self.frames = self.promised_frames.min(room);
+        let spare = room - self.frames;
+        self.unread_frames = match spare * size < BLOCK {
+            true => 0,
+            false => spare,
+        };
+    }
+}
+
+/// Returns the analog samples of a channel in each frame: those of the header, else those that the parameters show.
+fn samples(parameters: &Parameters, header: usize, per_frame: usize, rate: Option<f64>) -> usize {
+    if header > 0 || per_frame == 0 {
+        return header;
+    }
+    let used = parameters.number("ANALOG:USED").unwrap_or(0.0) as usize;
+    if used > 0 && per_frame.is_multiple_of(used) {
+        return per_frame / used;
+    }
+    let times = parameters.number("ANALOG:RATE").zip(rate);
+    let times = times.map_or(0.0, |(analog, rate)| (analog / rate).round()) as usize;
+    match times > 0 && per_frame.is_multiple_of(times) {
+        true => times,
+        false => 1,
+    }
 }
 
 /// Returns the numbers of the first and last frame; TRIAL holds them if 16 bits are too few.
@@ -439,10 +520,7 @@ fn value(body: &[u8], processor: Processor) -> Option<Value> {
     Some(match kind {
         -1 => {
             let width = sizes.first().copied().unwrap_or(1).max(1);
-            let text = |bytes: &[u8]| {
-                let text: String = bytes.iter().map(|byte| char::from(*byte)).collect();
-                text.trim_matches(['\0', ' ']).to_owned()
-            };
+            let text = |bytes: &[u8]| readable(bytes).trim_matches(['\0', ' ']).to_owned();
             Value::Texts(data.chunks(width).map(text).collect())
         }
         1 => Value::Integers(data.iter().map(|byte| u16::from(*byte)).collect()),
@@ -460,4 +538,39 @@ fn value(body: &[u8], processor: Processor) -> Option<Value> {
             Value::Reals(words.map(real).collect())
         }
     })
+}
+
+/// Returns a text that is UTF-8, whose last letter its fixed width may cut, or else Latin-1.
+fn readable(bytes: &[u8]) -> String {
+    let text = match str::from_utf8(bytes) {
+        Ok(text) => Some(text),
+        Err(error) if error.error_len().is_none() => {
+            str::from_utf8(&bytes[..error.valid_up_to()]).ok()
+        }
+        Err(_) => None,
+    };
+    // A single byte at the end is a letter of Latin-1, not the first of a letter that is cut.
+    let text = text.filter(|text| text.len() == bytes.len() || !text.is_ascii());
+    text.map_or_else(
+        || bytes.iter().map(|byte| char::from(*byte)).collect(),
+        str::to_owned,
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn texts_are_utf8_or_latin1_and_may_be_cut_within_a_letter() {
+        let cases: [(&[u8], &str); 4] = [
+            (b"LSHO", "LSHO"),
+            ("Tête".as_bytes(), "Tête"),
+            (b"T\xc3\xaate\xc3", "Tête"),
+            (b"T\xeate\xe9", "Têteé"),
+        ];
+        for (bytes, expected) in cases {
+            assert_eq!(readable(bytes), expected);
+        }
+    }
 }

@@ -4,6 +4,11 @@ use super::*;
 
 /// A small file: two points, one channel of two samples, three frames at 50 a second.
 fn file(kind: u8, is_real: bool) -> Vec<u8> {
+    file_with(kind, is_real, ["LSHO", "RSHO", "MORE"], &[])
+}
+
+/// The small file with other labels and more parameters: the number of their group, 0 for a new one, name and body.
+fn file_with(kind: u8, is_real: bool, labels: [&str; 3], more: &[(i8, &str, Vec<u8>)]) -> Vec<u8> {
     let u16s = |value: u16| {
         if kind == 86 {
             value.to_be_bytes()
@@ -62,13 +67,16 @@ fn file(kind: u8, is_real: bool) -> Vec<u8> {
         body.push(0);
         body
     };
-    add(1, "LABELS", &texts(&["LSHO", "RSHO", "MORE"]));
+    add(1, "LABELS", &texts(&labels));
     add(1, "UNITS", &[0xff, 1, 2, b'm', b'm', 0]);
     add(2, "LABELS", &texts(&["Fz"]));
     let real = |value: f32| [&[4, 1, 1][..], &f32s(value), &[0]].concat();
     add(2, "SCALE", &real(0.25));
     add(2, "GEN_SCALE", &real(2.0));
     add(2, "OFFSET", &[&[2, 1, 1][..], &u16s(4), &[0]].concat());
+    for (group, name, body) in more {
+        add(*group, name, body);
+    }
     section.resize(512, 0);
     let mut bytes = [header, section].concat();
     let number = |bytes: &mut Vec<u8>, value: i16| {
@@ -139,6 +147,120 @@ fn six_byte_layouts_read_to_equal_data() {
             );
         }
     }
+}
+
+/// Returns the body of a parameter of texts, or of floats, of a file of Intel processors.
+fn text(text: &str) -> Vec<u8> {
+    [&[0xff, 1, text.len() as u8], text.as_bytes(), &[0]].concat()
+}
+
+fn reals(values: &[f32]) -> Vec<u8> {
+    let bytes: Vec<u8> = values.iter().flat_map(|it| it.to_le_bytes()).collect();
+    [&[4, 1, values.len() as u8], &bytes[..], &[0]].concat()
+}
+
+#[test]
+fn all_frames_of_the_data_are_read_or_counted() {
+    /// The last frame of the header, POINT:FRAMES, the frames of the data, and what is read and left out.
+    type Case = (u16, Option<f32>, usize, usize, usize);
+    let cases: [Case; 6] = [
+        (3, None, 3, 3, 0),
+        (3, None, 103, 3, 100),
+        (3, Some(103.0), 103, 103, 0),
+        (u16::MAX, None, 70_000, 70_000, 0),
+        ((70_000 % 65_536) as u16, None, 70_000, 70_000, 0),
+        (u16::MAX, Some(70_000.0), 70_000, 70_000, 0),
+    ];
+    for (last, named, held, frames, unread) in cases {
+        let named: Vec<_> = named
+            .iter()
+            .map(|it| (1, "FRAMES", reals(&[*it])))
+            .collect();
+        let mut bytes = file_with(84, false, ["LSHO", "RSHO", "MORE"], &named);
+        bytes[8..10].copy_from_slice(&last.to_le_bytes());
+        let frame = bytes[1024..1044].to_vec();
+        bytes.truncate(1024);
+        bytes.extend(frame.repeat(held));
+        bytes.resize(bytes.len().next_multiple_of(512), 0);
+        let document = raw::read(&bytes).expect("C3D");
+        let found = (document.frames, document.unread_frames);
+        assert_eq!(found, (frames, unread), "{last} {held}");
+        let (_, findings) = read(&bytes).expect("C3D");
+        let said = findings
+            .iter()
+            .any(|it| it.message.contains("room for 100 more"));
+        assert_eq!(said, unread > 0, "{findings:?}");
+    }
+}
+
+#[test]
+fn a_header_without_samples_a_frame_does_not_move_the_points() {
+    let whole = file(84, true);
+    let (expected, _) = both(&whole);
+    let mut without = whole;
+    without[18..20].fill(0);
+    let (markers, analog) = both(&without);
+    assert_eq!(markers, expected);
+    assert_eq!(analog.curves().len(), 2);
+}
+
+#[test]
+fn the_axis_that_is_up_is_that_of_head_and_feet_then_that_of_the_screen() {
+    // The first point is at +X of the second.
+    let body = ["LFHD", "LTOE", "MORE"];
+    let hands = ["LSHO", "RSHO", "MORE"];
+    let cases = [
+        (hands, None, "+Z", "show which axis is up; +Z is taken"),
+        (hands, Some("+Y"), "+Y", ""),
+        (hands, Some("Y-"), "-Y", ""),
+        (hands, Some("y"), "+Y", ""),
+        (body, None, "+X", ""),
+        (body, Some("X"), "+X", ""),
+        (body, Some("+Z"), "+X", "Y_SCREEN says that +Z is up"),
+    ];
+    for (labels, screen, up, finding) in cases {
+        let more: Vec<_> = screen.iter().map(|it| (1, "Y_SCREEN", text(it))).collect();
+        let bytes = file_with(84, true, labels, &more);
+        let (tracks, findings) = read(&bytes).expect("C3D");
+        let Content::Markers(markers) = &tracks.tracks[0].content else {
+            panic!("markers");
+        };
+        let Space::World(convention) = markers.space() else {
+            panic!("a room");
+        };
+        assert_eq!(
+            convention.axes.up().to_string(),
+            up,
+            "{labels:?} {screen:?}"
+        );
+        let axis = |it: &&Finding| it.message.contains(" up");
+        let said: Vec<&str> = findings
+            .iter()
+            .filter(axis)
+            .map(|it| it.message.as_str())
+            .collect();
+        assert_eq!(said.is_empty(), finding.is_empty(), "{said:?}");
+        assert!(said.iter().all(|it| it.contains(finding)), "{said:?}");
+    }
+}
+
+#[test]
+fn continued_numbers_other_rates_and_outputs_with_a_subject_are_read() {
+    let document = raw::read(&file_with(
+        84,
+        true,
+        ["LSHO", "RSHO", "MORE"],
+        &[(2, "SCALE2", reals(&[7.0, 8.0]))],
+    ));
+    let parameters = document.expect("C3D").parameters;
+    assert_eq!(parameters.numbers("ANALOG:SCALE"), [0.25, 7.0, 8.0]);
+    let labels = ["LSHO", "A:LA", "MORE"];
+    let more = [(1, "ANGLES", text("LA")), (1, "RATE", reals(&[100.0]))];
+    let (tracks, findings) = read(&file_with(84, true, labels, &more)).expect("C3D");
+    let names: Vec<&str> = tracks.tracks.iter().map(|it| it.name.as_str()).collect();
+    assert_eq!(names, ["markers", "model outputs", "analog"]);
+    let text = "the header states 50 frames a second and POINT:RATE 100, which are taken";
+    assert!(findings.iter().any(|it| it.message == text), "{findings:?}");
 }
 
 #[test]
