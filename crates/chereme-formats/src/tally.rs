@@ -21,6 +21,14 @@ impl Findings {
         }
     }
 
+    /// Adds the finding from `make`, unless there is one with the same message.
+    pub(crate) fn once(&mut self, make: impl FnOnce() -> Finding) {
+        let finding = make();
+        if !self.listed.iter().any(|it| it.message == finding.message) {
+            self.listed.push(finding);
+        }
+    }
+
     /// Counts one more of `kind`; returns whether to report it.
     pub(crate) fn counts(&mut self, kind: &'static str) -> bool {
         let count = self.kinds.entry(kind).or_default();

@@ -35,6 +35,72 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "ses horodatages sont ceux d’une suite d’images fixes, à 1 ms d’écart au plus ; {n} images par seconde sont prises",
     ),
     (
+        "no step into the next second shows how many frames a second its timecodes count; {n} are taken",
+        "aucun passage à la seconde suivante ne montre combien d’images par seconde ses timecodes comptent ; {n} sont prises",
+    ),
+    (
+        "its timecodes leave out frames (drop frame), so {n} of them last 1.001 s",
+        "ses timecodes sautent des images (drop frame), donc {n} d’entre elles durent 1,001 s",
+    ),
+    (
+        "the decimals of its timecodes are those of the second, which the frames show already",
+        "les décimales de ses timecodes sont celles de la seconde, que les images montrent déjà",
+    ),
+    (
+        "rows without a face (BlendShapeCount is 0), whose numbers, if there are any, mean nothing: {n}",
+        "lignes sans visage (BlendShapeCount vaut 0), dont les nombres, s’il y en a, ne veulent rien dire : {n}",
+    ),
+    (
+        "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds",
+        "ses temps sont des nombres entiers, espacés comme les millisecondes d’un film ; ils sont lus comme des millisecondes",
+    ),
+    (
+        "write the unit into the title of that column, such as time [ms] or time [s]",
+        "écrivez l’unité dans le titre de cette colonne, comme time [ms] ou time [s]",
+    ),
+    (
+        "landmarks beside the scores are left out: {n} frames have them",
+        "les points à côté des valeurs sont laissés de côté : {n} images en ont",
+    ),
+    (
+        "write the landmarks into a file of their own, without scores",
+        "écrivez les points dans un fichier à part, sans valeurs",
+    ),
+    (
+        "the times of the frames are not even; every frame has its own time",
+        "les temps des images ne sont pas réguliers ; chaque image a son propre temps",
+    ),
+    (
+        "its first frame has the time {seconds} s; that is 0 s here",
+        "sa première image a le temps {seconds} s ; c’est 0 s ici",
+    ),
+    (
+        "it begins with frame {n} of its film; that is 0 s here",
+        "il commence à l’image {n} de son film ; c’est 0 s ici",
+    ),
+    (
+        "in row {row} a person is far from the last place of the person who is nearest, and may be another one",
+        "à la ligne {row}, une personne est loin de la dernière position de la plus proche, et peut en être une autre",
+    ),
+    ("people who jump", "personnes qui sautent"),
+    (
+        "places are from -1 to 1 in the picture's width and height: angles between them need its proportions",
+        "les positions vont de -1 à 1 dans la largeur et la hauteur de l’image : les angles entre elles demandent ses proportions",
+    ),
+    (
+        "left and right hands are those that MediaPipe names; it takes the film for mirrored",
+        "mains gauche et droite sont celles que MediaPipe nomme ; il prend le film pour un reflet",
+    ),
+    (
+        "{key} does not state the sides of its hands; they are in the order of each frame, and may change places",
+        "{key} ne dit pas les côtés de ses mains ; elles sont dans l’ordre de chaque image, et peuvent changer de place",
+    ),
+    ("hands without a side", "mains sans côté"),
+    (
+        "write \"handedness\" into each frame",
+        "écrivez \"handedness\" dans chaque image",
+    ),
+    (
         "write the seconds of each row into the column \"timestamp\"",
         "écrivez les secondes de chaque ligne dans la colonne \"timestamp\"",
     ),

@@ -13,6 +13,9 @@ use super::names;
 use crate::finding::Finding;
 use crate::tally::Findings;
 
+/// The message for places that are shares of the picture.
+const SHARES: &str =
+    "places are shares of the picture's width and height: angles between them need its proportions";
 /// The most coordinates of one person's points.
 const PLACES: usize = 30_000_000;
 
@@ -67,7 +70,12 @@ pub(super) fn triples(group: &str, values: &[Value], points: &mut Vec<Point>) {
 /// people.
 pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
     let Value::Array(all) = value else { return };
-    if all.iter().any(Value::is_array) {
+    // A landmark may be a list of its coordinates too: x, y, z and perhaps its visibility.
+    let is_numbers = |it: &Value| {
+        it.as_array()
+            .is_some_and(|it| (2..=5).contains(&it.len()) && it.iter().all(Value::is_number))
+    };
+    if all.iter().any(Value::is_array) && !all.iter().all(is_numbers) {
         for (at, list) in (1..).zip(all.iter().take(8)) {
             let group = if at == 1 {
                 group.to_owned()
@@ -84,7 +92,14 @@ pub(super) fn landmarks(group: &str, value: &Value, points: &mut Vec<Point>) {
         return;
     }
     for (at, mark) in all.iter().enumerate() {
-        let field = |key: &str| mark.get(key).and_then(number);
+        let column = |key: &str| match key {
+            "x" => mark.get(0),
+            "y" => mark.get(1),
+            "z" => mark.get(2),
+            "visibility" => mark.get(3),
+            _ => None,
+        };
+        let field = |key: &str| mark.get(key).or_else(|| column(key)).and_then(number);
         let place: Option<Vec<Number>> = ["x", "y"].into_iter().map(field).collect();
         let place = place.map(|mut place| {
             place.push(field("z").unwrap_or(Number::ZERO));
@@ -111,6 +126,20 @@ pub(super) fn middle(points: &[Point]) -> DVec2 {
     seen.iter().sum::<DVec2>() / seen.len().max(1) as f64
 }
 
+/// Returns the greater side of the box around the points that are seen.
+fn extent(points: &[Point]) -> f64 {
+    let seen = points.iter().filter_map(|point| match point.at.as_deref() {
+        Some([x, y, ..]) => Some(DVec2::new(x.to_f64(), y.to_f64())),
+        _ => None,
+    });
+    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
+    for at in seen {
+        (low, high) = (low.min(at), high.max(at));
+    }
+    let size = (high - low).max_element();
+    if size.is_finite() { size } else { 0.0 }
+}
+
 /// The growing columns of one point: three coordinates and the confidence.
 type Columns = [Vec<Option<Number>>; 4];
 
@@ -123,8 +152,16 @@ pub(super) struct Cloud {
     columns: Vec<Columns>,
     rows: usize,
     last: Option<DVec2>,
+    /// The greatest extent of the points in a frame.
+    extent: f64,
+    /// The person's number in the file.
+    number: Option<u64>,
+    least: f64,
     largest: [f64; 2],
 }
+
+/// The distance from a person's last place, as a share of the person's extent, that no person moves at once.
+const LEAP: f64 = 1.5;
 
 impl Cloud {
     pub(super) fn new(kind: PointSpace) -> Self {
@@ -135,8 +172,33 @@ impl Cloud {
             columns: Vec::new(),
             rows: 0,
             last: None,
+            extent: 0.0,
+            number: None,
+            least: 0.0,
             largest: [1.0; 2],
         }
+    }
+
+    /// Returns an empty cloud of the person with this number.
+    pub(super) fn of_person(number: u64) -> Self {
+        Self {
+            number: Some(number),
+            ..Self::new(PointSpace::Pixels)
+        }
+    }
+
+    pub(super) fn number(&self) -> Option<u64> {
+        self.number
+    }
+
+    pub(super) fn rows(&self) -> usize {
+        self.rows
+    }
+
+    /// Returns whether points are too far from the last ones for the same person.
+    pub(super) fn leaps(&self, points: &[Point]) -> bool {
+        let most = self.extent.max(extent(points)) * LEAP;
+        self.last.is_some() && most > 0.0 && self.far(middle(points)) > most
     }
 
     pub(super) fn kind(&self) -> PointSpace {
@@ -151,6 +213,7 @@ impl Cloud {
     /// Adds the points of a frame; if two frames have the same number, the first counts.
     pub(super) fn push(&mut self, row: usize, points: Vec<Point>) -> Result<(), Error> {
         self.last = Some(middle(&points));
+        self.extent = self.extent.max(extent(&points));
         self.reach(row)?;
         if self.rows > row {
             return Ok(());
@@ -173,6 +236,7 @@ impl Cloud {
             };
             for (most, value) in self.largest.iter_mut().zip([x, y]) {
                 *most = most.max(value.to_f64());
+                self.least = self.least.min(value.to_f64());
             }
             // A name that occurs twice in a frame counts once.
             if self.columns[at][0].len() == row {
@@ -254,6 +318,17 @@ impl Cloud {
                     .parse()
                     .map_err(|_| Error::Track("axes".to_owned()))?,
             }),
+            // No point of a picture is within its first pixel only.
+            PointSpace::Pixels if self.largest == [1.0; 2] => {
+                let text = match self.least < 0.0 {
+                    true => {
+                        "places are from -1 to 1 in the picture's width and height: angles between them need its proportions"
+                    }
+                    false => SHARES,
+                };
+                findings.add("shares of the picture", || Finding::note(None, text));
+                Space::Image(frame([1.0, 1.0]))
+            }
             PointSpace::Pixels => Space::Image(frame(size.unwrap_or_else(|| {
                 let found = self.largest.map(f64::ceil);
                 findings.add("pictures of unknown size", || {
@@ -268,12 +343,7 @@ impl Cloud {
                 found
             }))),
             PointSpace::Share => {
-                findings.add("shares of the picture", || {
-                    Finding::note(
-                        None,
-                        "places are shares of the picture's width and height: angles between them need its proportions",
-                    )
-                });
+                findings.add("shares of the picture", || Finding::note(None, SHARES));
                 Space::Depth(frame([1.0, 1.0]))
             }
         })

@@ -1,7 +1,7 @@
 //! JSON of points that were estimated from film: OpenPose, one file a frame or one for a film, and MediaPipe's landmarks.
 //!
-//! Every person of OpenPose becomes a track of its own; from frame to frame a person is the one whose mean position is
-//! nearest. OpenPose states neither the rate of the film nor, in files of one frame, the size of its pictures.
+//! Every person of OpenPose becomes a track of its own; from frame to frame a person is the one with the same number, or
+//! without numbers the one whose mean position is nearest. OpenPose states neither the rate of the film nor, in files of one frame, the size of its pictures.
 //!
 //! ```
 //! use chereme_formats::keypoints::{self, Reader};
@@ -16,18 +16,22 @@
 //! # Ok::<(), keypoints::Error>(())
 //! ```
 
+mod clock;
 mod cloud;
+mod hands;
 mod names;
 #[cfg(test)]
 mod tests;
 
-use chereme_motion::{Rate, Times};
+use chereme_motion::Rate;
 use serde_json::{Map, Value};
 
 use crate::finding::Finding;
 use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, another_rate};
+use crate::tracks::{Content, FileTrack, Tracks};
+use clock::Clock;
 use cloud::{Cloud, Point, PointSpace};
+pub(crate) use hands::has_sides;
 
 /// Frames a second if neither the file nor the caller has a rate.
 pub const USUAL_RATE: u32 = 25;
@@ -66,7 +70,7 @@ pub fn is_keypoints(head: &[u8]) -> bool {
         && (lower.contains("\"people\"")
             || lower.contains("_keypoints_")
             || lower.contains("landmarks\""))
-        && !lower.contains("\"categoryname\"")
+        && (!lower.contains("\"categoryname\"") || hands::has_sides(&lower))
 }
 
 /// Returns the prefix and the number of the name of an OpenPose file of one frame:
@@ -85,8 +89,7 @@ pub struct Reader {
     films: Vec<Film>,
     /// The number of the first frame, which counts as 0.
     first: Option<u64>,
-    /// Milliseconds of frames that state them.
-    millis: Vec<(u64, f64)>,
+    clock: Clock,
     findings: Findings,
 }
 
@@ -109,18 +112,29 @@ impl Reader {
         let document: Value = serde_json::from_slice(bytes)
             .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
         match &document {
-            Value::Array(all) if all.iter().any(|it| it.get("frames").is_some()) => {
+            Value::Array(all) if all.iter().any(|it| frames_of(it).is_some()) => {
+                // All cameras count from the first frame of any of them.
+                for camera in all {
+                    let first = first_number(camera)?;
+                    self.first = self.first.into_iter().chain(first).min();
+                }
                 for camera in all {
                     self.camera(camera)?;
                 }
             }
-            Value::Array(all) => {
-                for (at, one) in (0..).zip(all) {
-                    self.frame(0, frame.unwrap_or(0) + at, one)?;
-                }
-            }
-            other if other.get("frames").is_some() => self.camera(other)?,
+            Value::Array(all) => self.frames(0, frame.unwrap_or(0), all)?,
+            other if frames_of(other).is_some() => self.camera(other)?,
             other => self.frame(0, frame.unwrap_or(0), other)?,
+        }
+        Ok(())
+    }
+
+    /// Adds frames with the numbers that all of them state, else one after the other from `begin` on.
+    fn frames(&mut self, film: usize, begin: u64, frames: &[Value]) -> Result<(), Error> {
+        let stated = numbers(frames);
+        for (at, one) in frames.iter().enumerate() {
+            let number = stated.as_ref().map_or(begin + at as u64, |all| all[at]);
+            self.frame(film, number, one)?;
         }
         Ok(())
     }
@@ -132,6 +146,8 @@ impl Reader {
             other => other.to_string(),
         });
         let number = |key: &str| document.get(key).and_then(Value::as_f64);
+        let rates = ["fps", "frame_rate", "frameRate", "framerate"];
+        self.clock.state(rates.into_iter().find_map(number));
         let film = self.films.len();
         self.films.push(Film {
             camera: name.unwrap_or_default(),
@@ -140,25 +156,13 @@ impl Reader {
                 .map(|(width, height)| [width, height]),
             ..Film::default()
         });
-        match document.get("frames") {
+        match frames_of(document) {
             Some(Value::Object(frames)) => {
-                let mut numbered: Vec<(u64, &Value)> = Vec::with_capacity(frames.len());
-                for (key, value) in frames {
-                    let number = key.trim().parse();
-                    let number = number
-                        .map_err(|_| Error::Json(format!("{key:?} is no number of a frame")))?;
-                    numbered.push((number, value));
-                }
-                numbered.sort_by_key(|(number, _)| *number);
-                for (number, value) in numbered {
+                for (number, value) in numbered(frames)? {
                     self.frame(film, number, value)?;
                 }
             }
-            Some(Value::Array(frames)) => {
-                for (number, value) in (0..).zip(frames) {
-                    self.frame(film, number, value)?;
-                }
-            }
+            Some(Value::Array(frames)) => self.frames(film, 0, frames)?,
             _ => {}
         }
         Ok(())
@@ -173,9 +177,7 @@ impl Reader {
         while self.films.len() <= film {
             self.films.push(Film::default());
         }
-        if let Some(millis) = millis(document) {
-            self.millis.push((row, millis));
-        }
+        self.clock.see(row, document);
         let film = &mut self.films[film];
         let row = row as usize;
         match document.get("people") {
@@ -184,7 +186,7 @@ impl Reader {
             }
             _ => {
                 if let Value::Object(object) = document {
-                    film.landmarks(row, object)?;
+                    film.landmarks(row, object, &mut self.findings)?;
                 }
             }
         }
@@ -196,7 +198,14 @@ impl Reader {
     /// # Errors
     /// [`Error::Empty`] if there is no point at all.
     pub fn finish(mut self, rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), Error> {
-        let rate = self.rate(rate)?;
+        let rows = self.films.iter().map(Film::rows).max().unwrap_or(0);
+        let (times, offset) = self.clock.times(rows, rate, &mut self.findings)?;
+        if let Some(first) = self.first.filter(|first| *first > 0) {
+            self.findings.push(Finding::note(
+                None,
+                format!("it begins with frame {first} of its film; that is 0 s here"),
+            ));
+        }
         let mut tracks = Tracks::default();
         let several = self.films.len() > 1;
         for film in self.films {
@@ -220,12 +229,12 @@ impl Reader {
                 (name.to_owned(), cloud)
             });
             for (name, cloud) in people.chain(marks).collect::<Vec<_>>() {
-                let markers = cloud.markers(Times::Even(rate), film.size, &mut self.findings)?;
+                let markers = cloud.markers(times.clone(), film.size, &mut self.findings)?;
                 let Some(markers) = markers else { continue };
-                tracks.tracks.push(FileTrack::new(
-                    format!("{prefix}{name}"),
-                    Content::Markers(markers),
-                ));
+                let name = format!("{prefix}{name}");
+                let mut track = FileTrack::new(name, Content::Markers(markers));
+                track.offset = offset;
+                tracks.tracks.push(track);
             }
         }
         if tracks.tracks.is_empty() {
@@ -235,52 +244,65 @@ impl Reader {
             .push(Finding::note(None, "the points are estimated from film"));
         Ok((tracks, self.findings.finish()))
     }
+}
 
-    /// Returns the rate that the caller states, else that of the frames' times, else the usual one.
-    fn rate(&mut self, known: Option<Rate>) -> Result<Rate, Error> {
-        let stated = stated(&self.millis);
-        if let (Some(known), Some(stated)) = (known, stated)
-            && known != stated
-        {
-            self.findings.push(another_rate(stated, known));
-        }
-        if let Some(rate) = known.or(stated) {
-            return Ok(rate);
-        }
-        self.findings.push(
-            Finding::warning(
-                None,
-                format!("the file does not state the rate of the film; {USUAL_RATE} frames a second are taken"),
-            )
-            .with_remedy("import it with --rate, such as --rate 50 or --rate 30000/1001"),
-        );
-        Rate::new(USUAL_RATE, 1).map_err(|error| Error::Track(error.to_string()))
+/// Returns the frames of a document of a whole film.
+fn frames_of(document: &Value) -> Option<&Value> {
+    let named = ["frames", "results"].into_iter();
+    named
+        .filter_map(|key| document.get(key))
+        .find(|it| it.is_array() || it.is_object())
+}
+
+/// Returns the frames of an object by their numbers.
+fn numbered(frames: &Map<String, Value>) -> Result<Vec<(u64, &Value)>, Error> {
+    let mut numbered = Vec::with_capacity(frames.len());
+    for (key, value) in frames {
+        let number = key.trim().parse();
+        let number = number.map_err(|_| Error::Json(format!("{key:?} is no number of a frame")))?;
+        numbered.push((number, value));
     }
+    numbered.sort_by_key(|(number, _)| *number);
+    Ok(numbered)
 }
 
-/// Returns the rate that the milliseconds of frames show.
-fn stated(millis: &[(u64, f64)]) -> Option<Rate> {
-    let (first, last) = (millis.first()?, millis.last()?);
-    let frames = last.0.checked_sub(first.0).filter(|frames| *frames > 0)?;
-    let rate = frames as f64 * 1000.0 / (last.1 - first.1);
-    let close = |(row, at): &(u64, f64)| {
-        let want = first.1 + row.checked_sub(first.0).unwrap_or(0) as f64 * 1000.0 / rate;
-        (want - at).abs() < 500.0 / rate
+/// Returns the number of the first frame of a camera.
+fn first_number(camera: &Value) -> Result<Option<u64>, Error> {
+    Ok(match frames_of(camera) {
+        Some(Value::Object(frames)) => numbered(frames)?.first().map(|(number, _)| *number),
+        Some(Value::Array(frames)) => numbers(frames).map_or(Some(0), |all| all.first().copied()),
+        _ => None,
+    })
+}
+
+/// Returns the numbers that frames state under the same name, each greater than the one before.
+fn numbers(frames: &[Value]) -> Option<Vec<u64>> {
+    let keys = [
+        "frame",
+        "frame_id",
+        "frameId",
+        "frame_number",
+        "frameNumber",
+        "frame_index",
+        "frameIndex",
+        "image_id",
+    ];
+    let stated = |key: &str| -> Option<Vec<u64>> {
+        let numbers = frames.iter().map(|frame| frame.get(key)?.as_u64());
+        numbers.collect()
     };
-    let even = rate.is_finite() && rate > 0.0 && millis.iter().all(close);
-    crate::tracks::rate_of(crate::scene::near_usual(rate)).filter(|_| even)
-}
-
-fn millis(frame: &Value) -> Option<f64> {
-    let named = |key: &str| frame.get(key).and_then(Value::as_f64);
-    named("timestampMs")
-        .or_else(|| named("timestamp_ms"))
-        .or_else(|| named("time").map(|seconds| seconds * 1000.0))
-        .filter(|at| at.is_finite())
+    let mut all = keys.into_iter().filter_map(stated);
+    all.find(|numbers| !numbers.is_empty() && numbers.is_sorted_by(|a, b| a < b))
 }
 
 impl Film {
-    /// Adds the people of a frame, each to the track of the person whose last position was nearest.
+    fn rows(&self) -> usize {
+        let clouds = self.people.iter().chain(&self.marks);
+        clouds.map(Cloud::rows).max().unwrap_or(0)
+    }
+
+    /// Adds the people of a frame, each to the track of the person with the same number, or without numbers to that of
+    /// the person whose last position was nearest.
     fn people(
         &mut self,
         row: usize,
@@ -288,10 +310,12 @@ impl Film {
         findings: &mut Findings,
     ) -> Result<(), Error> {
         let mut bodies: Vec<Vec<Point>> = Vec::new();
+        let mut free: Vec<usize> = (0..self.people.len()).collect();
         for person in people {
             let Value::Object(person) = person else {
                 continue;
             };
+            let number = person_number(person);
             let mut points = Vec::new();
             for (group, values) in person {
                 let Value::Array(values) = values else {
@@ -309,11 +333,37 @@ impl Film {
                     cloud::triples(group, values, &mut points);
                 }
             }
-            if points.iter().any(Point::is_seen) {
-                bodies.push(points);
+            if !points.iter().any(Point::is_seen) {
+                continue;
             }
+            let Some(number) = number else {
+                bodies.push(points);
+                continue;
+            };
+            let known = self
+                .people
+                .iter()
+                .position(|it| it.number() == Some(number));
+            let known = match known {
+                // A number that occurs twice in a frame is none.
+                Some(known) if !free.contains(&known) => {
+                    bodies.push(points);
+                    continue;
+                }
+                Some(known) => known,
+                None if self.people.len() == PEOPLE => {
+                    bodies.push(points);
+                    continue;
+                }
+                None => {
+                    self.people.push(Cloud::of_person(number));
+                    self.people.len() - 1
+                }
+            };
+            free.retain(|it| *it != known);
+            self.people[known].push(row, points)?;
         }
-        let mut free: Vec<usize> = (0..self.people.len()).collect();
+        free.retain(|it| self.people[*it].number().is_none());
         // Pairs the nearest first, so that two people who pass each other are not exchanged because of their order in
         // the file.
         while !bodies.is_empty() {
@@ -346,25 +396,41 @@ impl Film {
                 }
             };
             free.retain(|it| *it != known);
-            let points = bodies.swap_remove(body);
+            let points = bodies.remove(body);
+            if self.people[known].leaps(&points) {
+                findings.add("people who jump", || {
+                    Finding::warning(
+                        None,
+                        format!("in row {row} a person is far from the last place of the person who is nearest, and may be another one"),
+                    )
+                });
+            }
             self.people[known].push(row, points)?;
         }
         Ok(())
     }
 
     /// Adds MediaPipe's landmarks of a frame.
-    fn landmarks(&mut self, row: usize, frame: &Map<String, Value>) -> Result<(), Error> {
+    fn landmarks(
+        &mut self,
+        row: usize,
+        frame: &Map<String, Value>,
+        findings: &mut Findings,
+    ) -> Result<(), Error> {
         let mut found: [(PointSpace, Vec<Point>); 2] = [
             (PointSpace::Share, Vec::new()),
             (PointSpace::World, Vec::new()),
         ];
+        let sides = hands::sides(frame);
         for (key, value) in frame {
             let lower = key.to_ascii_lowercase();
             if !lower.ends_with("landmarks") {
                 continue;
             }
-            let place = usize::from(lower.contains("world"));
-            cloud::landmarks(key, value, &mut found[place].1);
+            let points = &mut found[usize::from(lower.contains("world"))].1;
+            if !hands::add(key, value, &sides, points, findings) {
+                cloud::landmarks(key, value, points);
+            }
         }
         for (kind, points) in found {
             if points.is_empty() {
@@ -386,5 +452,13 @@ impl Film {
     fn reach(&mut self, rows: usize) -> Result<(), Error> {
         let mut all = self.people.iter_mut().chain(&mut self.marks);
         all.try_for_each(|cloud| cloud.reach(rows))
+    }
+}
+
+/// Returns the number of a person of OpenPose; -1 is none.
+fn person_number(person: &Map<String, Value>) -> Option<u64> {
+    match person.get("person_id")? {
+        Value::Array(all) => all.first()?.as_u64(),
+        other => other.as_u64(),
     }
 }

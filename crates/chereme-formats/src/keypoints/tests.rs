@@ -74,6 +74,230 @@ fn people_are_tracked_if_their_order_changes_and_missing_frames_are_gaps() {
     );
 }
 
+fn read(document: &str) -> (Tracks, Vec<String>) {
+    let mut reader = Reader::default();
+    reader
+        .push(None, document.as_bytes())
+        .unwrap_or_else(|error| panic!("{error}\n{document}"));
+    let (tracks, findings) = reader.finish(None).expect("points");
+    (tracks, findings.into_iter().map(|it| it.message).collect())
+}
+
+/// Returns x of the first point of a group in each frame of a track.
+fn xs(track: &FileTrack, group: &str) -> Vec<Option<f64>> {
+    let markers = points(track);
+    let found = markers.points().iter().find(|it| it.group == group);
+    let point = found.unwrap_or_else(|| panic!("{group}"));
+    (0..markers.frames())
+        .map(|frame| point.at(frame).map(|at| at.x))
+        .collect()
+}
+
+#[test]
+fn people_with_numbers_keep_them_when_they_cross_and_leaps_are_reported() {
+    let numbered = |people: &[(i64, f64)]| {
+        let people = people
+            .iter()
+            .map(|(number, x)| person(*x).replace("[-1]", &format!("[{number}]")));
+        format!("{{\"people\":[{}]}}", people.collect::<Vec<_>>().join(","))
+    };
+    let frames = [
+        numbered(&[(7, 100.0), (3, 300.0)]),
+        numbered(&[(3, 190.0), (7, 210.0)]),
+        numbered(&[(7, 300.0)]),
+    ];
+    let (tracks, _) = read(&format!("[{}]", frames.join(",")));
+    let group = "pose_keypoints_2d";
+    assert_eq!(
+        xs(&tracks.tracks[0], group),
+        [Some(100.0), Some(210.0), Some(300.0)]
+    );
+    assert_eq!(
+        xs(&tracks.tracks[1], group),
+        [Some(300.0), Some(190.0), None]
+    );
+    let (tracks, _) = read(&format!("[{}]", frame(&[1.0, 200.0, 500.0])));
+    let order: Vec<_> = tracks.tracks.iter().map(|it| xs(it, group)[0]).collect();
+    assert_eq!(order, [Some(1.0), Some(200.0), Some(500.0)]);
+    let wide = |x: f64| {
+        format!(
+            "{{\"people\":[{{\"pose_keypoints_2d\":[{x},20,0.9,{},20,0.9]}}]}}",
+            x + 50.0
+        )
+    };
+    for (next, is_said) in [(160.0, false), (900.0, true)] {
+        let (_, findings) = read(&format!("[{},{}]", wide(100.0), wide(next)));
+        let said = findings.iter().any(|it| it.contains("may be another one"));
+        assert_eq!(said, is_said, "{findings:?}");
+    }
+}
+
+#[test]
+fn frames_have_the_numbers_and_times_that_the_file_states() {
+    let pose =
+        |more: &str, x: f64| format!("{{{more}\"poseLandmarks\":[{{\"x\":{x},\"y\":0.5}}]}}");
+    let group = "poseLandmarks";
+    let (tracks, findings) = read(&format!(
+        "[{},{}]",
+        pose("\"frame\":3,", 0.1),
+        pose("\"frame\":5,", 0.2)
+    ));
+    assert_eq!(xs(&tracks.tracks[0], group), [Some(0.1), None, Some(0.2)]);
+    assert!(
+        findings
+            .iter()
+            .any(|it| it.starts_with("it begins with frame 3 of its film"))
+    );
+    let rates = [
+        (
+            format!(
+                "{{\"fps\":50,\"frames\":[{},{}]}}",
+                pose("", 0.1),
+                pose("", 0.2)
+            ),
+            Some(50),
+            0,
+        ),
+        (
+            format!(
+                "[{},{}]",
+                pose("\"timestampMs\":2000,", 0.1),
+                pose("\"timestampMs\":2040,", 0.2)
+            ),
+            Some(25),
+            2000,
+        ),
+        (
+            format!(
+                "[{},{}]",
+                pose("\"timestamp\":0,", 0.1),
+                pose("\"timestamp\":20,", 0.2)
+            ),
+            Some(50),
+            0,
+        ),
+        (
+            format!(
+                "[{},{}]",
+                pose("\"timestamp\":0.5,", 0.1),
+                pose("\"timestamp\":0.52,", 0.2)
+            ),
+            Some(50),
+            500,
+        ),
+        (
+            format!(
+                "{{\"results\":[{},{},{}]}}",
+                pose("\"time\":0,", 0.1),
+                pose("\"time\":0.04,", 0.2),
+                pose("\"time\":0.2,", 0.2)
+            ),
+            None,
+            0,
+        ),
+    ];
+    for (text, rate, offset) in rates {
+        let (tracks, findings) = read(&text);
+        let times = points(&tracks.tracks[0]).times();
+        assert_eq!(
+            times.rate().map(|it| it.frames()),
+            rate,
+            "{text}: {findings:?}"
+        );
+        assert_eq!(tracks.tracks[0].offset.millis(), offset, "{text}");
+        if rate.is_none() {
+            assert_eq!(times.instant(2).millis(), 200);
+        }
+    }
+    let camera = |name: &str, begin: u32| {
+        let frames: Vec<String> = (begin..12)
+            .map(|at| format!("\"{at}\":{}", frame(&[f64::from(at)])))
+            .collect();
+        format!(
+            "{{\"camera\":\"{name}\",\"frames\":{{{}}}}}",
+            frames.join(",")
+        )
+    };
+    let (tracks, _) = read(&format!("[{},{}]", camera("a", 10), camera("b", 8)));
+    let group = "pose_keypoints_2d";
+    assert_eq!(
+        xs(&tracks.tracks[0], group),
+        [None, None, Some(10.0), Some(11.0)]
+    );
+    assert_eq!(
+        xs(&tracks.tracks[1], group),
+        [Some(8.0), Some(9.0), Some(10.0), Some(11.0)]
+    );
+}
+
+#[test]
+fn hands_go_by_their_side_and_landmarks_may_be_lists_of_numbers() {
+    let hand = |x: f64| {
+        let marks: Vec<String> = (0..21)
+            .map(|_| format!("{{\"x\":{x},\"y\":0.5,\"z\":0}}"))
+            .collect();
+        format!("[{}]", marks.join(","))
+    };
+    let both = |hands: [f64; 2], sides: [&str; 2]| {
+        let [first, second] = hands.map(hand);
+        let [one, other] = sides;
+        [
+            format!(
+                "{{\"multiHandLandmarks\":[{first},{second}],\"multiHandedness\":[{{\"label\":\"{one}\"}},{{\"label\":\"{other}\"}}]}}"
+            ),
+            format!(
+                "{{\"landmarks\":[{first},{second}],\"handedness\":[[{{\"categoryName\":\"{one}\"}}],[{{\"categoryName\":\"{other}\"}}]]}}"
+            ),
+        ]
+    };
+    for form in 0..2 {
+        let frames = [
+            both([0.25, 0.75], ["Left", "Right"]),
+            both([0.75, 0.25], ["Right", "Left"]),
+        ];
+        let (tracks, findings) = read(&format!("[{},{}]", frames[0][form], frames[1][form]));
+        assert_eq!(xs(&tracks.tracks[0], "leftHandLandmarks"), [Some(0.25); 2]);
+        assert_eq!(xs(&tracks.tracks[0], "rightHandLandmarks"), [Some(0.75); 2]);
+        let said = findings
+            .iter()
+            .filter(|it| it.contains("takes the film for mirrored"));
+        assert_eq!(said.count(), 1);
+    }
+    let (_, findings) = read(&format!(
+        "{{\"multiHandLandmarks\":[{},{}]}}",
+        hand(0.25),
+        hand(0.75)
+    ));
+    assert!(
+        findings[0].contains("does not state the sides of its hands"),
+        "{findings:?}"
+    );
+    let numbers: Vec<String> = (0..33)
+        .map(|at| format!("[0.{at:02},0.5,-0.1,0.9]"))
+        .collect();
+    let (tracks, _) = read(&format!("{{\"pose_landmarks\":[{}]}}", numbers.join(",")));
+    let nose = &points(&tracks.tracks[0]).points()[32];
+    assert_eq!(
+        (nose.name.as_str(), nose.at(0).map(|at| at.x)),
+        ("RIGHT_FOOT_INDEX", Some(0.32))
+    );
+}
+
+#[test]
+fn places_within_the_first_pixel_are_shares_of_the_picture() {
+    for (x, begin) in [
+        (0.5, "places are shares"),
+        (-0.5, "places are from -1 to 1"),
+    ] {
+        let text = format!("{{\"people\":[{{\"pose_keypoints_2d\":[{x},0.2,0.9]}}]}}");
+        let (_, findings) = read(&text);
+        assert!(
+            findings.iter().any(|it| it.starts_with(begin)),
+            "{findings:?}"
+        );
+    }
+}
+
 #[test]
 fn a_film_of_several_cameras_keeps_their_sizes() {
     let frames = format!(
