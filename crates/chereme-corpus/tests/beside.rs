@@ -271,11 +271,14 @@ fn tracks_with_overlapping_timecodes_are_one_take_aligned_by_timecode() {
 fn a_folder_with_one_file_of_movement_and_one_of_a_face_is_one_take() {
     let desk = Desk::new();
     let other = MOVEMENT.replace("0 0 1", "0 0 2");
+    // As long as the movement: a sixth of a second, as phones count 60 frames.
+    let later = (3..10).map(|frame| format!("10:00:02:0{frame}.0,61,0.5\n"));
+    let phone = FACE.to_owned() + &later.collect::<String>();
     let inbox = folder(
         &desk,
         &[
             ("one/body.bvh", MOVEMENT),
-            ("one/phone.csv", FACE),
+            ("one/phone.csv", &phone),
             ("long/body2.bvh", &MOVEMENT.replace("0 0 1", "0 0 4")),
             (
                 "long/points.trc",

@@ -16,6 +16,8 @@ use chereme_motion::column::{Column, Number};
 use chereme_motion::{Curve, Curves, Instant, Rate, Times};
 
 use crate::finding::Finding;
+use crate::keypoints;
+use crate::scene::near_usual;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
 use crate::tracks::{Content, FileTrack, Tracks, rate_of, unique};
@@ -50,8 +52,9 @@ impl CurveFile {
         let start = String::from_utf8_lossy(&bytes[..bytes.len().min(1 << 14)]);
         let start = start.trim_start_matches('\u{feff}').trim_start();
         if start.starts_with(['{', '[']) {
-            let is_scores =
-                start.contains("\"categoryName\"") || start.contains("\"faceBlendshapes\"");
+            let named = start.contains("\"categoryName\"")
+                && !keypoints::has_sides(&start.to_ascii_lowercase());
+            let is_scores = named || start.contains("\"faceBlendshapes\"");
             return is_scores.then_some(Self::MediaPipe);
         }
         let shown = start.lines().map(str::trim);
@@ -151,7 +154,7 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     let channels = match kind {
         CurveFile::LiveLink => table::live_link(&text, &mut findings)?,
         CurveFile::OpenFace => table::open_face(&text, &mut findings)?,
-        CurveFile::Plain => table::plain(&text)?,
+        CurveFile::Plain => table::plain(&text, &mut findings)?,
         CurveFile::MediaPipe => mediapipe::read(&text, &mut findings)?,
         CurveFile::Fap => fap::read(&text)?,
         CurveFile::Packets => return Err(Error::Unknown),
@@ -245,7 +248,10 @@ fn times(
     let from_first: Vec<f64> = seconds.iter().map(|time| time - first).collect();
     let count = from_first.len();
     let last = from_first.last().copied().unwrap_or_default();
-    let even = rate_of((count.max(2) - 1) as f64 / last).filter(|rate| {
+    let mean = (count.max(2) - 1) as f64 / last;
+    // Rounded times show a usual rate with an error of their own.
+    let rates = [near_usual(mean), mean].into_iter().filter_map(rate_of);
+    let even = rates.into_iter().find(|rate| {
         let near = |(frame, time): (usize, &f64)| {
             (time - frame as f64 * rate.frame_time()).abs() <= EVEN_SLACK * rate.frame_time()
         };

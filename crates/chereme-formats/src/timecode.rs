@@ -7,6 +7,8 @@ use chereme_motion::Instant;
 pub(crate) struct Timecode {
     seconds: f64,
     frames: f64,
+    /// Whether a semicolon says that its count drops frames.
+    drops: bool,
 }
 
 /// A day in seconds.
@@ -14,43 +16,150 @@ pub(crate) const DAY: f64 = 86_400.0;
 
 /// Reads a timecode; a semicolon or a point may stand before the frames.
 pub(crate) fn parse(text: &str) -> Option<Timecode> {
+    let drops = text.contains(';');
     let mut parts = text.trim().splitn(4, [':', ';']);
     let mut whole = |most: u32| {
         let number: u32 = parts.next()?.trim().parse().ok()?;
         (number <= most).then_some(f64::from(number))
     };
     let seconds = whole(23)? * 3600.0 + whole(59)? * 60.0 + whole(59)?;
-    let frames: f64 = parts.next()?.trim().parse().ok()?;
-    (0.0..1000.0)
-        .contains(&frames)
-        .then_some(Timecode { seconds, frames })
+    let frames: f64 = parts.next()?.trim().replacen(',', ".", 1).parse().ok()?;
+    (0.0..1000.0).contains(&frames).then_some(Timecode {
+        seconds,
+        frames,
+        drops,
+    })
 }
 
-/// Returns the seconds of the day for each timecode; after midnight they go on beyond 24 hours.
-///
-/// The number of frames in a second is the smallest usual one above every frame that occurs.
-pub(crate) fn seconds(codes: &[Timecode]) -> (Vec<f64>, f64) {
-    let largest = codes
-        .iter()
-        .map(|code| code.frames.floor())
-        .fold(0.0, f64::max);
-    let usual = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
-    let base = usual
-        .into_iter()
-        .find(|base| largest < *base)
-        .unwrap_or(1000.0);
+/// What the timecodes of a file show together.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct Times {
+    /// The seconds of the day; after midnight they go on beyond 24 hours.
+    pub(crate) seconds: Vec<f64>,
+    /// The frames that a second counts.
+    pub(crate) base: f64,
+    /// Whether no step into the next second shows the base.
+    pub(crate) is_guessed: bool,
+    /// Whether the first frames of most minutes are left out, so that a frame lasts 1001/1000 of its share of a second.
+    pub(crate) drops: bool,
+    /// Whether the decimals repeat the frame as a part of the second, and count for nothing.
+    pub(crate) repeats: bool,
+}
+
+/// The frames in a second that timecodes count.
+const BASES: [f64; 8] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
+/// The frames in a second that are taken if nothing shows them, as phones count them.
+const USUAL_BASE: f64 = 60.0;
+/// The largest difference of a step across a second from the usual step, in frames.
+const STEP_SLACK: f64 = 1.5;
+
+/// Returns the times of timecodes in their order.
+pub(crate) fn times(codes: &[Timecode]) -> Times {
+    let (base, is_guessed) = base(codes);
+    let drops = codes.iter().any(|code| code.drops) || leaves_out(codes, base);
+    let dropped = match base {
+        30.0 if drops => 2.0,
+        60.0 if drops => 4.0,
+        _ => 0.0,
+    };
+    let drops = dropped > 0.0;
+    let share = |code: &Timecode| (code.frames.floor() / base).fract();
+    let later = codes.iter().filter(|code| code.frames >= 1.0);
+    let repeats = later.clone().count() > 1
+        && codes
+            .iter()
+            .all(|code| (code.frames.fract() - share(code)).abs() < 0.0011);
+    let counted = |code: &Timecode| match repeats {
+        true => code.frames.floor(),
+        false => code.frames,
+    };
+    let at = |seconds: f64, frames: f64| {
+        let minutes = (seconds / 60.0).floor();
+        let left_out = dropped * (minutes - (minutes / 10.0).floor());
+        let length = if drops { 1.001 } else { 1.0 };
+        (seconds * base + frames - left_out) * length / base
+    };
+    let day = at(DAY, 0.0);
     let mut days = 0.0;
     let mut before = f64::NEG_INFINITY;
-    let times = codes.iter().map(|code| {
-        let mut at = code.seconds + code.frames / base + days;
-        if at < before - DAY / 2.0 {
-            days += DAY;
-            at += DAY;
+    let seconds = codes.iter().map(|code| {
+        let mut time = at(code.seconds, counted(code)) + days;
+        if time < before - DAY / 2.0 {
+            days += day;
+            time += day;
         }
-        before = at;
-        at
+        before = time;
+        time
     });
-    (times.collect(), base)
+    Times {
+        seconds: seconds.collect(),
+        base,
+        is_guessed,
+        drops,
+        repeats,
+    }
+}
+
+/// Returns the frames in a second that timecodes count, and whether nothing shows them: the usual number with which the
+/// steps across seconds are like the others.
+fn base(codes: &[Timecode]) -> (f64, bool) {
+    let frames = codes.iter().map(|code| code.frames.floor());
+    let largest = frames.fold(0.0, f64::max);
+    let mut possible = BASES.into_iter().filter(|base| largest < *base);
+    let least = possible.clone().next().unwrap_or(1000.0);
+    let usual = if largest < USUAL_BASE {
+        USUAL_BASE
+    } else {
+        least
+    };
+    let mut steps = Vec::new();
+    let mut across = Vec::new();
+    for pair in codes.windows(2) {
+        let [before, after] = pair else { continue };
+        // A day may end between them.
+        let passed = (after.seconds - before.seconds).rem_euclid(DAY);
+        match passed {
+            0.0 => steps.push(after.frames - before.frames),
+            1.0 => across.push(after.frames - before.frames),
+            _ => {}
+        }
+    }
+    steps.sort_by(f64::total_cmp);
+    let Some(step) = steps.get(steps.len() / 2) else {
+        // One row in each second, or a single row: the least base that holds the frames, if there are several.
+        return (usual, true);
+    };
+    if across.is_empty() {
+        return (usual, true);
+    }
+    across.sort_by(f64::total_cmp);
+    let turn = across[across.len() / 2];
+    let fits = possible.find(|base| (base + turn - step).abs() <= STEP_SLACK);
+    match fits {
+        Some(base) => (base, false),
+        // Rows are missing at the ends of seconds; the last frame of a second may be there.
+        None if largest + 1.0 == least => (least, true),
+        None => (usual, true),
+    }
+}
+
+/// Returns whether frames are left out where a count that drops frames leaves them out: at every minute but each tenth.
+fn leaves_out(codes: &[Timecode], base: f64) -> bool {
+    let first = match base {
+        30.0 => 2.0,
+        60.0 => 4.0,
+        _ => return false,
+    };
+    let begins = |code: &Timecode| code.seconds % 60.0 == 0.0 && code.seconds % 600.0 != 0.0;
+    let within = |code: &Timecode| begins(code) && code.frames.floor() < first;
+    let leaps = |pair: &[Timecode]| {
+        let [before, after] = pair else { return false };
+        after.seconds - before.seconds == 1.0
+            && before.frames.floor() == base - 1.0
+            && begins(after)
+            && after.frames.floor() == first
+    };
+    codes.windows(2).any(leaps) && !codes.iter().any(within)
 }
 
 /// Returns the time of day of one timecode, such as `12:34:56:07@25`: the number after the `@` is the number of frames
@@ -86,4 +195,98 @@ fn base_of(rate: f64) -> f64 {
     };
     let usual = [30.0, 25.0, 24.0];
     usual.into_iter().find(whole).unwrap_or(30.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(codes: &[String]) -> Times {
+        let codes: Option<Vec<Timecode>> = codes.iter().map(|code| parse(code)).collect();
+        times(&codes.expect("timecodes"))
+    }
+
+    /// Returns timecodes of frames from `begin` on, `step` apart, that count `base` a second.
+    fn codes(
+        begin: u32,
+        count: u32,
+        step: u32,
+        base: u32,
+        decimals: impl Fn(u32) -> String,
+    ) -> Vec<String> {
+        let code = |at: u32| {
+            let frame = begin + at * step;
+            let (second, frame) = (frame / base, frame % base);
+            let (minute, second) = (second / 60, second % 60);
+            format!("00:{minute:02}:{second:02}:{frame:02}{}", decimals(frame))
+        };
+        (0..count).map(code).collect()
+    }
+
+    #[test]
+    fn the_step_from_a_second_into_the_next_shows_the_base() {
+        let plain = |_: u32| String::new();
+        // The first frame, the rows, the step between rows, the base, what is found, and whether it is guessed.
+        let cases = [
+            (0, 20, 1, 60, 60.0, true),
+            (5, 24, 1, 60, 60.0, true),
+            (0, 12, 2, 60, 60.0, true),
+            (50, 25, 1, 60, 60.0, false),
+            (40, 20, 2, 60, 60.0, false),
+            (20, 20, 1, 24, 24.0, false),
+            (20, 20, 1, 25, 25.0, false),
+            (20, 20, 1, 30, 30.0, false),
+            (0, 300, 1, 50, 50.0, false),
+        ];
+        for (begin, rows, step, base, found, is_guessed) in cases {
+            let times = read(&codes(begin, rows, step, base, plain));
+            assert_eq!(
+                (times.base, times.is_guessed),
+                (found, is_guessed),
+                "{begin} {rows} {step} {base}"
+            );
+            let last = f64::from((rows - 1) * step) / found;
+            let length = times.seconds[rows as usize - 1] - times.seconds[0];
+            assert!((length - last).abs() < 1e-9, "{length} {last}");
+        }
+    }
+
+    #[test]
+    fn counts_that_drop_frames_are_even_across_minutes() {
+        for (base, dropped) in [(30, 2), (60, 4)] {
+            for separator in [':', ';'] {
+                let code = |frame: u32| {
+                    let minute = 60 * base - dropped;
+                    let (minutes, frame) = match frame < 60 * base {
+                        true => (0, frame),
+                        false => (
+                            1 + (frame - 60 * base) / minute,
+                            dropped + (frame - 60 * base) % minute,
+                        ),
+                    };
+                    let (second, frame) = (frame / base, frame % base);
+                    format!("00:{minutes:02}:{second:02}{separator}{frame:02}")
+                };
+                let all: Vec<String> = (0..150 * base).map(code).collect();
+                let times = read(&all);
+                assert!(times.drops, "{separator}");
+                for (at, seconds) in (0u32..).zip(&times.seconds) {
+                    let want = f64::from(at) * 1.001 / f64::from(base);
+                    assert!((seconds - want).abs() < 1e-9, "{at} {seconds} {want}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn decimals_of_the_second_are_not_added_to_the_frames() {
+        let times = read(&codes(0, 120, 1, 60, |frame| {
+            format!(".{:03}", (f64::from(frame) * 1000.0 / 60.0).round())
+        }));
+        assert!(times.repeats);
+        assert!((times.seconds[90] - 1.5).abs() < 1e-9);
+        let times = read(&codes(0, 120, 1, 60, |_| ".500".to_owned()));
+        assert!(!times.repeats);
+        assert!((times.seconds[90] - 90.5 / 60.0).abs() < 1e-9);
+    }
 }

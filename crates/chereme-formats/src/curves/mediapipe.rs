@@ -72,6 +72,16 @@ pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Erro
     };
     let mut channels = Channels::new(Vec::new());
     let mut times = Vec::new();
+    let points = frames.iter().filter(|frame| has_landmarks(frame)).count();
+    if points > 0 {
+        findings.push(
+            Finding::warning(
+                None,
+                format!("landmarks beside the scores are left out: {points} frames have them"),
+            )
+            .with_remedy("write the landmarks into a file of their own, without scores"),
+        );
+    }
     for (row, frame) in frames.iter().enumerate() {
         for column in &mut channels.columns {
             column.push(None);
@@ -116,6 +126,16 @@ pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Erro
         }
     };
     Ok(channels)
+}
+
+/// Returns whether a frame lists landmarks.
+fn has_landmarks(frame: &Value) -> bool {
+    frame.as_object().is_some_and(|frame| {
+        frame.iter().any(|(key, value)| {
+            key.to_ascii_lowercase().ends_with("landmarks")
+                && value.as_array().is_some_and(|it| !it.is_empty())
+        })
+    })
 }
 
 /// Returns the named scores of a frame, as the file writes the numbers.

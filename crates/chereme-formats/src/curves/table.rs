@@ -1,9 +1,12 @@
 //! Rows and columns: Live Link Face, OpenFace, and plain tables with a time.
 
+use std::borrow::Cow;
+
 use chereme_motion::column::Number;
 
 use super::{Channels, Clock, Error};
 use crate::finding::Finding;
+use crate::table::is_gap;
 use crate::tally::Findings;
 use crate::timecode;
 use crate::tracks::rate_of;
@@ -21,11 +24,18 @@ const USUAL_RATE: f64 = 30.0;
 struct Table {
     header: Vec<String>,
     rows: Vec<(u64, csv::StringRecord)>,
+    /// Whether numbers may have a comma before their decimals.
+    has_commas: bool,
 }
 
-fn table(text: &str) -> Result<Table, Error> {
-    let head = text.lines().next().unwrap_or_default();
-    let count = |letter: char| head.chars().filter(|it| *it == letter).count();
+/// Reads a table; `is_short` says whether a row may lack the cells at its end.
+fn table(text: &str, is_short: fn(&csv::StringRecord) -> bool) -> Result<Table, Error> {
+    let mut lines = text.lines();
+    let head = lines.find(|line| !line.trim().is_empty());
+    let count = |letter: char| {
+        let head = head.unwrap_or_default();
+        head.chars().filter(|it| *it == letter).count()
+    };
     let delimiter = [',', ';', '\t']
         .into_iter()
         .max_by_key(|letter| count(*letter))
@@ -34,18 +44,23 @@ fn table(text: &str) -> Result<Table, Error> {
         .delimiter(delimiter as u8)
         .flexible(true)
         .trim(csv::Trim::All)
-        .from_reader(text.as_bytes());
+        .from_reader(text.trim_start().as_bytes());
     let header = reader.headers().map_err(|_| Error::Unknown)?;
-    let header: Vec<String> = header.iter().map(str::to_owned).collect();
+    let mut header: Vec<String> = header.iter().map(str::to_owned).collect();
     let mut rows = Vec::new();
     for record in reader.into_records() {
-        let record = record.map_err(|_| Error::Unknown)?;
+        let mut record = record.map_err(|_| Error::Unknown)?;
         let line = record.position().map_or(0, csv::Position::line);
         let found = record.iter().count();
         if record.iter().all(str::is_empty) {
             continue;
         }
-        if found != header.len() {
+        while record.len() < header.len() && is_short(&record) {
+            record.push_field("");
+        }
+        if record.len() != header.len() && record.iter().skip(header.len()).any(|it| !it.is_empty())
+            || record.len() < header.len()
+        {
             return Err(Error::Width {
                 line,
                 found,
@@ -54,14 +69,28 @@ fn table(text: &str) -> Result<Table, Error> {
         }
         rows.push((line, record));
     }
-    Ok(Table { header, rows })
+    // A comma at the end of every line is no column.
+    let is_blank = |at: usize| rows.iter().all(|(_, row)| row[at].is_empty());
+    if header.last().is_some_and(String::is_empty) && is_blank(header.len() - 1) {
+        header.pop();
+    }
+    Ok(Table {
+        header,
+        rows,
+        has_commas: delimiter != ',',
+    })
 }
 
-fn number(cell: &str, line: u64) -> Result<Option<Number>, Error> {
-    if cell.is_empty() || cell.eq_ignore_ascii_case("nan") {
+/// Reads a number, whose decimals a comma may begin if commas do not divide the cells.
+fn number(cell: &str, line: u64, has_commas: bool) -> Result<Option<Number>, Error> {
+    if is_gap(cell) {
         return Ok(None);
     }
-    let parsed = Number::parse(cell.as_bytes())
+    let point = match has_commas && !cell.contains('.') {
+        true => Cow::Owned(cell.replacen(',', ".", 1)),
+        false => Cow::Borrowed(cell),
+    };
+    let parsed = Number::parse(point.as_bytes())
         .ok()
         .filter(|number| number.to_f64().is_finite());
     parsed
@@ -77,25 +106,54 @@ fn channels(table: &Table, left_out: &[usize]) -> Result<Channels, Error> {
     let mut channels = Channels::new(kept.iter().map(|at| table.header[*at].clone()).collect());
     for (line, row) in &table.rows {
         for (column, at) in channels.columns.iter_mut().zip(&kept) {
-            column.push(number(&row[*at], *line)?);
+            column.push(number(&row[*at], *line, table.has_commas)?);
         }
     }
     Ok(channels)
 }
 
 pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
-    let table = table(text)?;
+    let has_no_face = |row: &csv::StringRecord| row.get(1) == Some("0");
+    let table = table(text, has_no_face)?;
     let mut channels = channels(&table, &[0])?;
+    let blank = table.rows.iter().filter(|(_, row)| has_no_face(row));
+    match blank.count() {
+        0 => {}
+        blank => findings.push(Finding::warning(
+            None,
+            format!("rows without a face (BlendShapeCount is 0), whose numbers, if there are any, mean nothing: {blank}"),
+        )),
+    }
     let code = |(line, row): &(u64, csv::StringRecord)| {
         timecode::parse(&row[0]).ok_or_else(|| Error::cell(*line, &row[0], "timecode"))
     };
     let codes: Result<Vec<_>, Error> = table.rows.iter().map(code).collect();
-    let (seconds, base) = timecode::seconds(&codes?);
-    findings.push(Finding::note(
-        1,
-        format!("its timecodes count {base} frames a second"),
-    ));
-    channels.clock = Clock::Seconds(seconds);
+    let times = timecode::times(&codes?);
+    let base = times.base;
+    if times.is_guessed && times.seconds.len() > 1 {
+        findings.push(Finding::warning(
+            1,
+            format!("no step into the next second shows how many frames a second its timecodes count; {base} are taken"),
+        ));
+    } else {
+        findings.push(Finding::note(
+            1,
+            format!("its timecodes count {base} frames a second"),
+        ));
+    }
+    if times.drops {
+        findings.push(Finding::note(
+            1,
+            format!("its timecodes leave out frames (drop frame), so {base} of them last 1.001 s"),
+        ));
+    }
+    if times.repeats {
+        findings.push(Finding::note(
+            1,
+            "the decimals of its timecodes are those of the second, which the frames show already",
+        ));
+    }
+    channels.clock = Clock::Seconds(times.seconds);
     let is_turn = |name: &str| {
         let name = name.to_lowercase();
         ["yaw", "pitch", "roll"]
@@ -117,7 +175,7 @@ pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels,
 }
 
 pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
-    let table = table(text)?;
+    let table = table(text, |_| false)?;
     let mut channels = channels(&table, &[])?;
     let find = |name: &str| {
         table
@@ -165,21 +223,19 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
                 .to_owned(),
         ));
     }
-    let Some(at) = find("timestamp") else {
-        return Err(Error::Unknown);
-    };
-    let times = seconds(&table, at, 1.0)?;
-    channels.clock = match is_counted(&times) {
-        false => Clock::Seconds(times),
-        true => {
+    let times = find("timestamp").map(|at| seconds(&table, at, 1.0));
+    channels.clock = match times.transpose()? {
+        Some(times) if !is_counted(&times) => Clock::Seconds(times),
+        times => {
+            let text = match times {
+                Some(_) => format!(
+                    "its timestamps are those of a series of pictures, at most 1 ms apart; {USUAL_RATE} frames a second are taken"
+                ),
+                None => format!("its frames have no times; {USUAL_RATE} a second are taken"),
+            };
             findings.push(
-                Finding::warning(
-                    None,
-                    format!(
-                        "its timestamps are those of a series of pictures, at most 1 ms apart; {USUAL_RATE} frames a second are taken"
-                    ),
-                )
-                .with_remedy("write the seconds of each row into the column \"timestamp\""),
+                Finding::warning(None, text)
+                    .with_remedy("write the seconds of each row into the column \"timestamp\""),
             );
             let numbers = match find("frame") {
                 Some(at) => seconds(&table, at, 1.0 / USUAL_RATE)?,
@@ -196,6 +252,18 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
     Ok(channels)
 }
 
+/// The usual steps of milliseconds of a film's frames, in milliseconds.
+const STEPS_OF_FILM: std::ops::RangeInclusive<f64> = 4.0..=100.0;
+
+/// Returns whether times without a unit are milliseconds: whole numbers whose usual step is that of a film's frames.
+fn are_millis(times: &[f64]) -> bool {
+    let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual = steps.get(steps.len() / 2);
+    let is_whole = times.iter().all(|time| time.fract() == 0.0);
+    is_whole && usual.is_some_and(|usual| STEPS_OF_FILM.contains(usual))
+}
+
 /// Returns whether timestamps count rows instead of giving their times.
 fn is_counted(times: &[f64]) -> bool {
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -207,7 +275,7 @@ fn is_counted(times: &[f64]) -> bool {
 /// Returns a column as seconds, each cell worth `unit`.
 fn seconds(table: &Table, at: usize, unit: f64) -> Result<Vec<f64>, Error> {
     let time = |(line, row): &(u64, csv::StringRecord)| {
-        let parsed = number(&row[at], *line)?;
+        let parsed = number(&row[at], *line, table.has_commas)?;
         let parsed = parsed.ok_or_else(|| Error::cell(*line, &row[at], "time"))?;
         Ok(parsed.to_f64() * unit)
     };
@@ -244,8 +312,8 @@ pub(super) fn unit_of_time(title: &str) -> Option<TimeUnit> {
     }
 }
 
-pub(super) fn plain(text: &str) -> Result<Channels, Error> {
-    let table = table(text)?;
+pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
+    let table = table(text, |_| false)?;
     let unit = table
         .header
         .first()
@@ -268,7 +336,23 @@ pub(super) fn plain(text: &str) -> Result<Channels, Error> {
         }
     }
     channels.clock = match unit {
-        TimeUnit::Seconds(unit) => Clock::Seconds(seconds(&table, 0, unit)?),
+        TimeUnit::Seconds(unit) => {
+            let times = seconds(&table, 0, unit)?;
+            let stated = table
+                .header
+                .first()
+                .is_some_and(|title| title.contains(['[', '(', '_']));
+            match !stated && unit == 1.0 && are_millis(&times) {
+                true => {
+                    findings.push(Finding::warning(
+                        1,
+                        "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds",
+                    ).with_remedy("write the unit into the title of that column, such as time [ms] or time [s]"));
+                    Clock::Seconds(times.iter().map(|time| time / 1000.0).collect())
+                }
+                false => Clock::Seconds(times),
+            }
+        }
         TimeUnit::Frames(rate) => {
             let frames = seconds(&table, 0, 1.0)?;
             let even = frames.windows(2).all(|pair| pair[1] - pair[0] == 1.0);

@@ -42,6 +42,87 @@ fn live_link_has_the_times_of_its_timecodes() {
 }
 
 #[test]
+fn rows_without_a_face_and_the_decimals_of_other_countries_are_read() {
+    let plain = "Timecode,BlendShapeCount,JawOpen,HeadYaw\n00:00:00:59.0,2,0.25,0.1\n00:00:01:00.0,2,0.5,0.1\n00:00:01:01.0,2,,\n";
+    let (expected, _, _) = curves(plain);
+    let empty = plain.replace("01.0,2,,", "01.0,2");
+    assert!(read(empty.as_bytes()).is_err(), "a row that is cut");
+    let dialects = [
+        plain.replace(',', ";").replace('.', ","),
+        plain.replace(',', ";"),
+        plain.replace('\n', ",\n"),
+        format!("\n{plain}"),
+        plain.replace("2,,", "2,nan,-nan(ind)"),
+    ];
+    for dialect in dialects {
+        assert_eq!(curves(&dialect).0, expected, "{dialect}");
+    }
+    for row in ["0", "0,,", "0,0.0,0.0"] {
+        let (found, _, findings) = curves(&plain.replace("2,,", row));
+        assert_eq!(found.frames(), 3, "{row}");
+        let said = |it: &Finding| it.message.ends_with("mean nothing: 1");
+        assert!(findings.iter().any(said), "{row}: {findings:?}");
+    }
+}
+
+#[test]
+fn times_of_open_face_and_of_tables_show_the_rate_of_the_film() {
+    let open_face = |rate: f64, rows: u32| {
+        let mut text = "frame, timestamp, confidence, success, AU01_r\n".to_owned();
+        for row in 0..rows {
+            text += &format!("{}, {:.3}, 0.98, 1, 0.5\n", row + 1, f64::from(row) / rate);
+        }
+        text
+    };
+    for (rate, rows) in [
+        (30.0, 60),
+        (29.97, 300),
+        (59.94, 600),
+        (60.0, 300),
+        (25.0, 7),
+        (23.976, 99),
+    ] {
+        let (found, _, _) = curves(&open_face(rate, rows));
+        let found = found.times().rate().expect("a rate").per_second();
+        assert!((found / rate - 1.0).abs() < 3e-6, "{rate}: {found}");
+    }
+    let timeless = "frame, confidence, success, AU01_r\n1, 0.98, 1, 0.5\n2, 0.98, 1, 0.5\n";
+    let (found, _, findings) = curves(timeless);
+    assert_eq!(found.times().rate().map(|rate| rate.frames()), Some(30));
+    assert!(
+        findings[0]
+            .message
+            .contains("its frames have no times; 30 a second are taken")
+    );
+    for (title, rate, is_said) in [
+        ("timestamp", 25.0, true),
+        ("time [s]", 0.025, false),
+        ("time_ms", 25.0, false),
+    ] {
+        let text = format!("{title},jawOpen\n0,0.1\n40,0.2\n80,0.3\n");
+        let (found, _, findings) = curves(&text);
+        let found = found.times().rate().expect("a rate").per_second();
+        assert!((found - rate).abs() < 1e-6, "{title} {found}");
+        let said = |it: &Finding| it.message.contains("read as milliseconds");
+        assert_eq!(findings.iter().any(said), is_said, "{title}");
+    }
+}
+
+#[test]
+fn landmarks_beside_scores_are_counted_and_hands_are_no_scores() {
+    let text = r#"[{"timestampMs": 0, "faceLandmarks": [[{"x": 0.1, "y": 0.2}]], "faceBlendshapes": [{"categories": [{"categoryName": "jawOpen", "score": 0.5}]}]},
+        {"timestampMs": 40, "faceBlendshapes": [{"categories": [{"categoryName": "jawOpen", "score": 0.5}]}]}]"#;
+    let (_, _, findings) = curves(text);
+    assert_eq!(
+        findings[0].message,
+        "landmarks beside the scores are left out: 1 frames have them"
+    );
+    let hands = br#"{"landmarks": [], "handedness": [[{"categoryName": "Left", "score": 0.9}]]}"#;
+    assert_eq!(CurveFile::of(hands), None);
+    assert!(keypoints::is_keypoints(hands));
+}
+
+#[test]
 fn degrees_and_radians_are_distinguished_by_their_size() {
     let text = "Timecode,BlendshapeCount,HeadRoll\n00:00:00:00.0,52,12.5\n00:00:00:01.0,52,1\n";
     assert_eq!(curves(text).0.curves()[1].unit, "deg");
