@@ -1,7 +1,8 @@
 //! `.pose` files: points estimated from film, as the library *pose-format* writes them (versions 0.0 to 0.2).
 //!
 //! All components on the picture become one track of markers; landmarks in metres become another one. A point
-//! with confidence 0 is a gap. Only the first person of each frame is read.
+//! with confidence 0 is a gap. Every person becomes tracks of its own: the one in the same place of every frame, in
+//! version 0.0 the one with the same number.
 
 #[cfg(test)]
 mod tests;
@@ -42,7 +43,9 @@ pub enum Error {
     Track(String),
 }
 
-/// The most numbers of the first person.
+/// The most people that become tracks.
+const PEOPLE: usize = 16;
+/// The most numbers of all people.
 const NUMBERS: usize = 400_000_000;
 
 /// Landmarks in metres are within this distance of the hips; greater numbers were multiplied by the
@@ -87,16 +90,35 @@ struct Header {
     components: Vec<Component>,
 }
 
-/// The numbers of the first person, point after point and frame after frame.
+/// The frames of all people.
 struct Body {
     rate: f64,
     frames: usize,
     dimensions: usize,
+    people: Vec<Person>,
+    /// The most people in a frame.
+    crowd: usize,
+}
+
+/// The numbers of one person, point after point and frame after frame.
+#[derive(Default)]
+struct Person {
     /// Coordinates by `[frame][point][dimension]`.
     places: Vec<f32>,
     /// Confidence by `[frame][point]`.
     confidence: Vec<f32>,
-    people: usize,
+}
+
+impl Person {
+    fn is_seen(&self) -> bool {
+        self.confidence.iter().any(|sure| *sure > 0.0)
+    }
+
+    /// Adds gaps until there are `frames` frames.
+    fn reach(&mut self, frames: usize, points: usize, dimensions: usize) {
+        self.places.resize(frames * points * dimensions, 0.0);
+        self.confidence.resize(frames * points, 0.0);
+    }
 }
 
 /// Reads a `.pose` file.
@@ -121,25 +143,31 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
     if body.frames == 0 {
         return Err(Error::Empty);
     }
-    if body.people > 1 {
-        let others = body.people - 1;
+    if body.crowd > PEOPLE {
+        let others = body.crowd - PEOPLE;
         findings.push(Finding::warning(
             None,
-            format!("{others} more people are in the film; only the first was read"),
+            format!("{others} more people are in the film; only the first {PEOPLE} were read"),
         ));
     }
     let rate = rate_of(body.rate).ok_or_else(|| Error::Rate(body.rate.to_string()))?;
     let mut tracks = Tracks::default();
-    for is_world in [false, true] {
-        let picked = |component: &Component| component.name.contains("WORLD") == is_world;
-        let track = track(&header, &body, picked, is_world, &mut findings).map(|space| {
-            space.and_then(|(space, points, limbs)| {
-                Markers::new(Times::Even(rate), space, points)
-                    .and_then(|it| it.joined(limbs))
-                    .map_err(|error| Error::Track(error.to_string()))
-            })
-        });
-        if let Some(markers) = track {
+    let nobody = !body.people.iter().any(Person::is_seen);
+    let seen = body.people.iter().filter(|it| it.is_seen());
+    // If nobody is seen, the points of the first one are gaps.
+    let people = seen.chain(body.people.first().filter(|_| nobody));
+    for (number, person) in (1..).zip(people) {
+        for is_world in [false, true] {
+            let picked = |component: &Component| component.name.contains("WORLD") == is_world;
+            let of_person = (&body, person);
+            let track = track(&header, of_person, picked, is_world, &mut findings).map(|space| {
+                space.and_then(|(space, points, limbs)| {
+                    Markers::new(Times::Even(rate), space, points)
+                        .and_then(|it| it.joined(limbs))
+                        .map_err(|error| Error::Track(error.to_string()))
+                })
+            });
+            let Some(markers) = track else { continue };
             let markers = markers?
                 .captured(Capture::Estimated)
                 .rated(Quality::Confidence);
@@ -147,6 +175,10 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
                 "world landmarks"
             } else {
                 "landmarks"
+            };
+            let name = match number {
+                1 => name.to_owned(),
+                number => format!("{name} {number}"),
             };
             tracks
                 .tracks
@@ -222,6 +254,9 @@ fn stacked(bytes: &mut Bytes<'_>, header: &Header, points: usize) -> Result<Body
         bytes.u16(part)?
     };
     let people = bytes.u16(part)?;
+    if people == 0 {
+        return Err(Error::Empty);
+    }
     let frame = people * points * (dimensions + 1) * 4;
     // The count of version 0.1 overflows, and the length of the file is right; but if the two differ by anything else
     // than overflows, the file is cut short, and what would be taken for its confidences are coordinates.
@@ -234,20 +269,21 @@ fn stacked(bytes: &mut Bytes<'_>, header: &Header, points: usize) -> Result<Body
     let values = frames * people * points;
     let places = floats(bytes.take(4 * values * dimensions, part)?);
     let confidence = floats(bytes.take(4 * values, part)?);
-    let first = |all: Vec<f32>, width: usize| -> Vec<f32> {
-        if people <= 1 {
-            return all;
-        }
+    let of_person = |all: &[f32], person: usize, width: usize| -> Vec<f32> {
         let of_frame = all.chunks(people * width);
-        of_frame.flat_map(|frame| frame[..width].to_vec()).collect()
+        let own = of_frame.map(|frame| &frame[person * width..(person + 1) * width]);
+        own.flatten().copied().collect()
     };
+    let found = (0..people.min(PEOPLE)).map(|person| Person {
+        places: of_person(&places, person, points * dimensions),
+        confidence: of_person(&confidence, person, points),
+    });
     Ok(Body {
         rate,
         frames,
         dimensions,
-        places: first(places, points * dimensions),
-        confidence: first(confidence, points),
-        people,
+        people: found.collect(),
+        crowd: people,
     })
 }
 
@@ -257,43 +293,65 @@ fn interleaved(bytes: &mut Bytes<'_>, header: &Header, points: usize) -> Result<
     let dimensions = dimensions(header);
     let rate = bytes.u16(part)? as f64;
     let frames = bytes.u16(part)?;
-    let mut body = Body {
-        rate,
-        frames,
-        dimensions,
-        places: Vec::new(),
-        confidence: Vec::new(),
-        people: 0,
-    };
-    // Frames without people take two bytes and become gaps of every point.
-    if frames.saturating_mul(points) > NUMBERS / 4 {
-        return Err(Error::Short(part));
-    }
-    for _ in 0..frames {
+    let mut found: Vec<(i64, Person)> = Vec::new();
+    let mut crowd = 0;
+    for frame in 0..frames {
         let people = bytes.u16(part)?;
-        body.people = body.people.max(people);
-        if people == 0 {
-            body.places
-                .extend(std::iter::repeat_n(0.0, points * dimensions));
-            body.confidence.extend(std::iter::repeat_n(0.0, points));
-        }
-        for person in 0..people {
-            bytes.take(2, part)?;
+        crowd = crowd.max(people);
+        let mut here = Vec::new();
+        for place in 0..people {
+            let number = bytes.u16(part)? as u16 as i16;
+            // People without numbers of their own are those in the same place of every frame.
+            let number = match i64::from(number) {
+                number if number < 0 || here.contains(&number) => -1 - place as i64,
+                number => number,
+            };
+            here.push(number);
+            let at = match found.iter().position(|(known, _)| *known == number) {
+                None if found.len() < PEOPLE => {
+                    // Frames without people take two bytes and become gaps of every point.
+                    let all = frames.saturating_mul(points) * (found.len() + 1);
+                    if all > NUMBERS / 4 {
+                        return Err(Error::Short(part));
+                    }
+                    found.push((number, Person::default()));
+                    Some(found.len() - 1)
+                }
+                known => known,
+            };
+            let mut person = at.map(|at| &mut found[at].1);
+            if let Some(person) = &mut person {
+                person.reach(frame, points, dimensions);
+            }
             for component in &header.components {
                 let width = if component.has_depth { 4 } else { 3 };
                 for _ in &component.points {
                     let values = floats(bytes.take(4 * width, part)?);
-                    if person == 0 {
+                    if let Some(person) = &mut person {
                         let axes = (0..dimensions)
                             .map(|axis| values[..width - 1].get(axis).copied().unwrap_or(0.0));
-                        body.places.extend(axes);
-                        body.confidence.push(values[width - 1]);
+                        person.places.extend(axes);
+                        person.confidence.push(values[width - 1]);
                     }
                 }
             }
         }
     }
-    Ok(body)
+    if found.is_empty() && frames.saturating_mul(points) <= NUMBERS / 4 {
+        found.push((0, Person::default()));
+    }
+    let people = found.into_iter().map(|(_, mut person)| {
+        person.reach(frames, points, dimensions);
+        person
+    });
+    let people: Vec<Person> = people.collect();
+    Ok(Body {
+        rate,
+        frames: if people.is_empty() { 0 } else { frames },
+        dimensions,
+        crowd: crowd.max(people.len()),
+        people,
+    })
 }
 
 fn dimensions(header: &Header) -> usize {
@@ -316,7 +374,7 @@ type Parts = (Space, Vec<Marker>, Vec<[usize; 2]>);
 /// Returns the points of the picked components, if any.
 fn track(
     header: &Header,
-    body: &Body,
+    of_person: (&Body, &Person),
     picked: impl Fn(&Component) -> bool,
     is_world: bool,
     findings: &mut Findings,
@@ -358,7 +416,7 @@ fn track(
         );
         for (at, name) in names.into_iter().enumerate() {
             points.push(marker(
-                body,
+                of_person,
                 (begin + at, all),
                 count,
                 &component.name,
@@ -379,7 +437,7 @@ fn track(
 }
 
 fn marker(
-    body: &Body,
+    (body, person): (&Body, &Person),
     (point, points): (usize, usize),
     coordinates: usize,
     group: &str,
@@ -387,7 +445,7 @@ fn marker(
 ) -> Marker {
     let at = |frame: usize| frame * points + point;
     let sure: Vec<f32> = (0..body.frames)
-        .map(|frame| body.confidence[at(frame)])
+        .map(|frame| person.confidence[at(frame)])
         .collect();
     let gaps = (0u32..)
         .zip(&sure)
@@ -395,7 +453,7 @@ fn marker(
     let gaps = Gaps::at(gaps.map(|(frame, _)| frame));
     let axis = |axis: usize| {
         let values = (0..body.frames).map(|frame| {
-            let found = body.places.get(at(frame) * body.dimensions + axis);
+            let found = person.places.get(at(frame) * body.dimensions + axis);
             found
                 .copied()
                 .filter(|_| axis < body.dimensions)

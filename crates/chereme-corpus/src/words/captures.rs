@@ -358,8 +358,8 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "le composant {name} a le format {format} ; XYC et XYZC sont connus",
     ),
     (
-        "{n} more people are in the film; only the first was read",
-        "autres personnes dans le film : {n} ; seule la première a été lue",
+        "{n} more people are in the film; only the first {most} were read",
+        "personnes de plus dans le film : {n} ; seules les {most} premières ont été lues",
     ),
     (
         "the landmarks in metres were multiplied by the picture's width and height; they are divided by them again",

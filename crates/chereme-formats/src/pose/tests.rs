@@ -79,6 +79,112 @@ fn three_versions_read_to_equal_data() {
     assert_eq!(tip.at(1), None, "confidence 0 is a gap");
 }
 
+/// A film of people with one point each: their numbers and x in each frame; 0 is a point that is not seen.
+fn crowd(version: f32, frames: &[&[(i16, f32)]]) -> Vec<u8> {
+    let text = |text: &str| [&(text.len() as u16).to_le_bytes(), text.as_bytes()].concat();
+    let shorts = |all: &[u16]| {
+        all.iter()
+            .flat_map(|it| it.to_le_bytes())
+            .collect::<Vec<u8>>()
+    };
+    let mut bytes = version.to_le_bytes().to_vec();
+    bytes.extend(shorts(&[100, 50, 0, 1]));
+    bytes.extend([text("HAND"), text("XYC"), shorts(&[1, 0, 0]), text("WRIST")].concat());
+    let count = frames.len() as u16;
+    if version < 0.05 {
+        bytes.extend(shorts(&[25, count]));
+        for people in frames {
+            bytes.extend(shorts(&[people.len() as u16]));
+            for (number, x) in *people {
+                bytes.extend(number.to_le_bytes());
+                bytes.extend([*x, 1.0, x.signum()].iter().flat_map(|it| it.to_le_bytes()));
+            }
+        }
+        return bytes;
+    }
+    bytes.extend(shorts(&[25, count, frames[0].len() as u16]));
+    let all = || frames.iter().flat_map(|it| it.iter());
+    bytes.extend(
+        all()
+            .flat_map(|(_, x)| [*x, 1.0])
+            .flat_map(f32::to_le_bytes),
+    );
+    let sure = all().map(|(_, x)| if *x == 0.0 { 0.0 } else { 1.0 });
+    bytes.extend(sure.flat_map(f32::to_le_bytes));
+    bytes
+}
+
+#[test]
+fn every_person_is_a_track_and_keeps_its_number() {
+    let across: &[&[(i16, f32)]] = &[
+        &[(4, 10.0), (9, 50.0)],
+        &[(9, 51.0), (4, 11.0)],
+        &[(9, 52.0)],
+    ];
+    let unnumbered: &[&[(i16, f32)]] = &[&[(-1, 10.0), (-1, 50.0)], &[(-1, 11.0)]];
+    let beside: &[&[(i16, f32)]] = &[&[(0, 10.0), (1, 50.0)], &[(0, 0.0), (1, 51.0)]];
+    let late: &[&[(i16, f32)]] = &[&[(0, 0.0), (1, 50.0)], &[(0, 0.0), (1, 51.0)]];
+    let nobody: &[&[(i16, f32)]] = &[&[], &[]];
+    /// A version, a film, and x of every track by frames.
+    type Case<'c> = (f32, &'c [&'c [(i16, f32)]], Vec<Vec<Option<f64>>>);
+    let cases: [Case<'_>; 5] = [
+        (
+            0.0,
+            across,
+            vec![
+                vec![Some(10.0), Some(11.0), None],
+                vec![Some(50.0), Some(51.0), Some(52.0)],
+            ],
+        ),
+        (
+            0.0,
+            unnumbered,
+            vec![vec![Some(10.0), Some(11.0)], vec![Some(50.0), None]],
+        ),
+        (0.0, nobody, vec![vec![None, None]]),
+        (
+            0.1,
+            beside,
+            vec![vec![Some(10.0), None], vec![Some(50.0), Some(51.0)]],
+        ),
+        (0.1, late, vec![vec![Some(50.0), Some(51.0)]]),
+    ];
+    for (version, film, expected) in cases {
+        let (tracks, findings) = read(&crowd(version, film)).expect("people");
+        let found = tracks.tracks.iter().map(|track| {
+            let Content::Markers(markers) = &track.content else {
+                panic!("markers");
+            };
+            let point = &markers.points()[0];
+            (0..markers.frames())
+                .map(|frame| point.at(frame).map(|at| at.x))
+                .collect()
+        });
+        let found: Vec<Vec<Option<f64>>> = found.collect();
+        assert_eq!(found, expected, "{version} {film:?}");
+        assert!(
+            findings
+                .iter()
+                .all(|it| !it.message.contains("more people"))
+        );
+        let names = ["landmarks", "landmarks 2"];
+        assert!(
+            tracks
+                .tracks
+                .iter()
+                .zip(names)
+                .all(|(track, name)| track.name == name)
+        );
+    }
+    let many: Vec<(i16, f32)> = (0..20).map(|at| (at, 1.0)).collect();
+    for version in [0.0, 0.1] {
+        let (tracks, findings) = read(&crowd(version, &[&many])).expect("people");
+        assert_eq!(tracks.tracks.len(), PEOPLE);
+        let text = "4 more people are in the film; only the first 16 were read";
+        assert_eq!(findings[0].message, text);
+    }
+}
+
 #[test]
 fn damaged_files_are_refused() {
     for version in [0.0, 0.1, 0.2] {
