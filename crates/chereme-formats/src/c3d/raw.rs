@@ -115,7 +115,7 @@ impl Parameters {
     /// Returns the numbers of a parameter, with those of its continuations; integers are unsigned.
     #[must_use]
     pub fn numbers(&self, name: &str) -> Vec<f64> {
-        self.all_numbers(name, |word| f64::from(word))
+        self.all_numbers(name, f64::from)
     }
 
     /// Returns the numbers of a parameter, with those of its continuations; integers are signed.

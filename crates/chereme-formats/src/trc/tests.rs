@@ -140,7 +140,15 @@ fn times_with_few_decimals_or_in_milliseconds_or_missing_show_the_rate() {
         let rows = rows.map(|(time, frame)| format!("{frame}\t{time}\t1\t2\t3\t4\t5\t6\n"));
         head + &rows.collect::<String>()
     };
-    let cases: [(&str, &[&str], &[u32], Option<u32>, &str); 4] = [
+    /// A name, times and numbers of frames, the rate and a finding.
+    type Case = (
+        &'static str,
+        &'static [&'static str],
+        &'static [u32],
+        Option<u32>,
+        &'static str,
+    );
+    let cases: [Case; 4] = [
         (
             "few decimals",
             &["0.00", "0.01", "0.02", "0.02", "0.03", "0.04"],
