@@ -151,13 +151,27 @@ pub fn read(bytes: &[u8]) -> Result<(Tracks, Vec<Finding>), Error> {
         TableError::NotText { line } => Error::NotText { line },
         _ => Error::Unknown,
     })?;
+    if kind == CurveFile::OpenFace {
+        let mut tracks = Tracks::default();
+        for (number, face) in (1..).zip(table::open_face(&text, &mut findings)?) {
+            for mut track in face.tracks(kind, &mut findings)?.tracks {
+                if number > 1 {
+                    track.name = format!("{} {number}", track.name);
+                }
+                tracks.tracks.push(track);
+            }
+        }
+        return match tracks.tracks.is_empty() {
+            true => Err(Error::Empty),
+            false => Ok((tracks, findings.finish())),
+        };
+    }
     let channels = match kind {
         CurveFile::LiveLink => table::live_link(&text, &mut findings)?,
-        CurveFile::OpenFace => table::open_face(&text, &mut findings)?,
         CurveFile::Plain => table::plain(&text, &mut findings)?,
         CurveFile::MediaPipe => mediapipe::read(&text, &mut findings)?,
         CurveFile::Fap => fap::read(&text)?,
-        CurveFile::Packets => return Err(Error::Unknown),
+        CurveFile::OpenFace | CurveFile::Packets => return Err(Error::Unknown),
     };
     Ok((channels.tracks(kind, &mut findings)?, findings.finish()))
 }

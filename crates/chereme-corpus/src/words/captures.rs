@@ -166,8 +166,12 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "lignes sans visage (success est 0), dont les nombres sont gardés et ne veulent rien dire : {n}",
     ),
     (
-        "the file holds several faces (face_id); run OpenFace for one face, or split the file",
-        "le fichier contient plusieurs visages (face_id) ; lancez OpenFace pour un visage, ou divisez le fichier",
+        "the file holds more than {n} faces (face_id); run OpenFace for one face, or split the file",
+        "le fichier contient plus de {n} visages (face_id) ; lancez OpenFace pour un seul visage, ou partagez le fichier",
+    ),
+    (
+        "each of its faces (face_id) is a track of its own: {names}",
+        "chacun de ses visages (face_id) est une piste à part : {names}",
     ),
     (
         "the turns of the head are all 0: the tracker did not record them",

@@ -17,6 +17,8 @@ const MOST_RADIANS: f64 = 3.2;
 /// The longest usual step of timestamps, in seconds, that are no times: OpenFace writes milliseconds or 0 for a series
 /// of pictures.
 const COUNTED: f64 = 0.001_000_1;
+/// The most faces of a file that become tracks.
+const MOST_FACES: usize = 16;
 /// Frames per second if the file gives no times.
 const USUAL_RATE: f64 = 30.0;
 
@@ -174,9 +176,55 @@ pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels,
     Ok(channels)
 }
 
-pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
-    let table = table(text, |_| false)?;
-    let mut channels = channels(&table, &[])?;
+/// Reads the channels of every face of a file, in the order in which they are first seen.
+pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Vec<Channels>, Error> {
+    let whole = table(text, |_| false)?;
+    let named = |title: &String| title.eq_ignore_ascii_case("face_id");
+    let Some(at) = whole.header.iter().position(named) else {
+        return Ok(vec![face(&whole, findings)?]);
+    };
+    let mut faces: Vec<(String, Table)> = Vec::new();
+    for (line, row) in whole.rows {
+        let number = &row[at];
+        let known = faces.iter().position(|(known, _)| known == number);
+        let known = match known {
+            Some(known) => known,
+            None if faces.len() == MOST_FACES => {
+                return Err(Error::Track(format!(
+                    "the file holds more than {MOST_FACES} faces (face_id); run OpenFace for one face, or split the file"
+                )));
+            }
+            None => {
+                let own = Table {
+                    header: whole.header.clone(),
+                    rows: Vec::new(),
+                    has_commas: whole.has_commas,
+                };
+                faces.push((number.to_owned(), own));
+                faces.len() - 1
+            }
+        };
+        faces[known].1.rows.push((line, row));
+    }
+    if faces.len() > 1 {
+        let names: Vec<&str> = faces.iter().map(|(name, _)| name.as_str()).collect();
+        findings.push(Finding::note(
+            None,
+            format!(
+                "each of its faces (face_id) is a track of its own: {}",
+                names.join(", ")
+            ),
+        ));
+    }
+    faces
+        .iter()
+        .map(|(_, table)| face(table, findings))
+        .collect()
+}
+
+/// Reads the channels of one face.
+fn face(table: &Table, findings: &mut Findings) -> Result<Channels, Error> {
+    let mut channels = channels(table, &[])?;
     let find = |name: &str| {
         table
             .header
@@ -207,23 +255,7 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
             _ => "",
         };
     }
-    let faces = find("face_id").map(|at| {
-        let mut ids: Vec<String> = table
-            .rows
-            .iter()
-            .map(|(_, row)| row[at].to_owned())
-            .collect();
-        ids.sort();
-        ids.dedup();
-        ids.len()
-    });
-    if faces.is_some_and(|faces| faces > 1) {
-        return Err(Error::Track(
-            "the file holds several faces (face_id); run OpenFace for one face, or split the file"
-                .to_owned(),
-        ));
-    }
-    let times = find("timestamp").map(|at| seconds(&table, at, 1.0));
+    let times = find("timestamp").map(|at| seconds(table, at, 1.0));
     channels.clock = match times.transpose()? {
         Some(times) if !is_counted(&times) => Clock::Seconds(times),
         times => {
@@ -238,7 +270,7 @@ pub(super) fn open_face(text: &str, findings: &mut Findings) -> Result<Channels,
                     .with_remedy("write the seconds of each row into the column \"timestamp\""),
             );
             let numbers = match find("frame") {
-                Some(at) => seconds(&table, at, 1.0 / USUAL_RATE)?,
+                Some(at) => seconds(table, at, 1.0 / USUAL_RATE)?,
                 None => Vec::new(),
             };
             match rate_of(USUAL_RATE) {

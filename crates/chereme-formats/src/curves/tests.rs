@@ -109,6 +109,35 @@ fn times_of_open_face_and_of_tables_show_the_rate_of_the_film() {
 }
 
 #[test]
+fn every_face_of_open_face_is_a_track() {
+    let head = "frame, face_id, timestamp, confidence, success, AU01_r\n";
+    let rows = "1, 0, 0.000, 0.9, 1, 0.1\n1, 1, 0.000, 0.9, 1, 0.5\n2, 0, 0.040, 0.9, 1, 0.2\n\
+                3, 1, 0.080, 0.9, 1, 0.6\n3, 0, 0.080, 0.9, 1, 0.3\n4, 1, 0.120, 0.9, 1, 0.7\n";
+    let (tracks, findings) = read(format!("{head}{rows}").as_bytes()).expect("two faces");
+    let found = tracks.tracks.iter().map(|track| {
+        let Content::Curves(curves) = &track.content else {
+            panic!("curves");
+        };
+        let last = curves.times().instant(2).millis();
+        (track.name.as_str(), values(curves, "AU01_r"), last)
+    });
+    let expected = [
+        ("face", vec![Some(0.1), Some(0.2), Some(0.3)], 80),
+        ("face 2", vec![Some(0.5), Some(0.6), Some(0.7)], 120),
+    ];
+    assert_eq!(found.collect::<Vec<_>>(), expected);
+    assert!(
+        findings[0].message.ends_with("is a track of its own: 0, 1"),
+        "{findings:?}"
+    );
+    let crowd: String = (0..17)
+        .map(|face| format!("1, {face}, 0, 0.9, 1, 0.1\n"))
+        .collect();
+    let error = read(format!("{head}{crowd}").as_bytes()).expect_err("a crowd");
+    assert!(error.to_string().contains("more than 16 faces"), "{error}");
+}
+
+#[test]
 fn landmarks_beside_scores_are_counted_and_hands_are_no_scores() {
     let text = r#"[{"timestampMs": 0, "faceLandmarks": [[{"x": 0.1, "y": 0.2}]], "faceBlendshapes": [{"categories": [{"categoryName": "jawOpen", "score": 0.5}]}]},
         {"timestampMs": 40, "faceBlendshapes": [{"categories": [{"categoryName": "jawOpen", "score": 0.5}]}]}]"#;
