@@ -397,7 +397,9 @@ fn track(
     let all: usize = header.components.iter().map(|it| it.points.len()).sum();
     let (mut points, mut limbs) = (Vec::new(), Vec::new());
     let mut begin = 0;
-    for component in &header.components {
+    let groups = header.components.iter().map(|it| it.name.as_str());
+    let groups = crate::tracks::unique(groups, "component");
+    for (component, group) in header.components.iter().zip(&groups) {
         if !picked(component) {
             begin += component.points.len();
             continue;
@@ -415,13 +417,7 @@ fn track(
                 .map(|[a, b]| [a + first, b + first]),
         );
         for (at, name) in names.into_iter().enumerate() {
-            points.push(marker(
-                of_person,
-                (begin + at, all),
-                count,
-                &component.name,
-                name,
-            ));
+            points.push(marker(of_person, (begin + at, all), count, group, name));
         }
         begin += component.points.len();
     }

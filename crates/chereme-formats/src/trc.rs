@@ -435,7 +435,14 @@ pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, S
         .times()
         .rate()
         .ok_or("TRC needs an even frame rate")?;
-    let units = [(1.0, "m"), (0.01, "cm"), (0.001, "mm"), (0.0254, "in")];
+    let units = [
+        (1.0, "m"),
+        (0.01, "cm"),
+        (0.001, "mm"),
+        (0.0254, "in"),
+        (0.3048, "ft"),
+        (0.1, "dm"),
+    ];
     let (_, unit) = units
         .iter()
         .find(|(metres, _)| (metres - convention.metres_per_unit).abs() < 1e-9)

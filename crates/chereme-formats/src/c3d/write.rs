@@ -111,7 +111,14 @@ pub fn write(markers: &Markers, offset: Instant) -> Result<Vec<u8>, String> {
             4 * LABELS
         ));
     }
-    let units = [(0.001, "mm"), (0.01, "cm"), (1.0, "m"), (0.0254, "in")];
+    let units = [
+        (0.001, "mm"),
+        (0.01, "cm"),
+        (1.0, "m"),
+        (0.0254, "in"),
+        (0.3048, "ft"),
+        (0.1, "dm"),
+    ];
     let known = units
         .iter()
         .find(|(metres, _)| (metres - convention.metres_per_unit).abs() < 1e-12);

@@ -186,6 +186,22 @@ fn every_person_is_a_track_and_keeps_its_number() {
 }
 
 #[test]
+fn components_of_the_same_name_are_groups_of_their_own() {
+    let mut bytes = crowd(0.1, &[&[(0, 10.0)]]);
+    let component = bytes[12..bytes.len() - 18].to_vec();
+    bytes[10] = 2;
+    bytes.splice(12..12, component);
+    let frames = bytes.len() - 12;
+    let point = [10.0f32, 1.0, 20.0, 2.0, 1.0, 1.0];
+    bytes.truncate(frames);
+    bytes.extend(point.iter().flat_map(|it| it.to_le_bytes()));
+    let found = markers(&bytes);
+    let groups: Vec<&str> = found.points().iter().map(|it| it.group.as_str()).collect();
+    assert_eq!(groups, ["HAND", "HAND (2)"]);
+    assert_eq!(found.points()[1].at(0).map(|at| at.x), Some(20.0));
+}
+
+#[test]
 fn damaged_files_are_refused() {
     for version in [0.0, 0.1, 0.2] {
         let whole = file(version);

@@ -207,6 +207,8 @@ fn units_are_known_by_their_words_and_a_row_that_is_cut_is_reported() {
             panic!("a room");
         };
         assert_eq!(convention.metres_per_unit, metres, "{unit}");
+        let text = write("a.trc", &found, Instant::ZERO).expect("TRC");
+        assert_eq!(markers(&text).0.space(), found.space(), "{unit}");
     }
     for (cut, is_reported) in [(1, false), (3, true)] {
         let (_, findings) = markers(&PLAIN[..PLAIN.len() - cut]);
