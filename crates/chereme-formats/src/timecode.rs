@@ -50,6 +50,8 @@ pub(crate) struct Times {
 const BASES: [f64; 8] = [24.0, 25.0, 30.0, 48.0, 50.0, 60.0, 100.0, 120.0];
 /// The frames in a second that are taken if nothing shows them, as phones count them.
 const USUAL_BASE: f64 = 60.0;
+/// The error of a part of a second of three decimals.
+const DECIMAL_SLACK: f64 = 0.0011;
 /// The largest difference of a step across a second from the usual step, in frames.
 const STEP_SLACK: f64 = 1.5;
 
@@ -63,15 +65,20 @@ pub(crate) fn times(codes: &[Timecode]) -> Times {
         _ => 0.0,
     };
     let drops = dropped > 0.0;
+    // Decimals may be those of the second instead of the frame; then frames may occur twice.
     let share = |code: &Timecode| (code.frames.floor() / base).fract();
-    let later = codes.iter().filter(|code| code.frames >= 1.0);
-    let repeats = later.clone().count() > 1
-        && codes
-            .iter()
-            .all(|code| (code.frames.fract() - share(code)).abs() < 0.0011);
-    let counted = |code: &Timecode| match repeats {
-        true => code.frames.floor(),
-        false => code.frames,
+    let later = codes.iter().filter(|code| code.frames >= 1.0).count() > 1;
+    let exact = |code: &Timecode| (code.frames.fract() - share(code)).abs() < DECIMAL_SLACK;
+    let within = |code: &Timecode| {
+        let part = code.frames.fract() - share(code);
+        (-DECIMAL_SLACK..1.0 / base + DECIMAL_SLACK).contains(&part)
+    };
+    let is_exact = later && codes.iter().all(exact);
+    let repeats = later && codes.iter().all(within);
+    let counted = |code: &Timecode| match (is_exact, repeats) {
+        (true, _) => code.frames.floor(),
+        (false, true) => code.frames.fract() * base,
+        (false, false) => code.frames,
     };
     let at = |seconds: f64, frames: f64| {
         let minutes = (seconds / 60.0).floor();
@@ -285,6 +292,23 @@ mod tests {
         }));
         assert!(times.repeats);
         assert!((times.seconds[90] - 1.5).abs() < 1e-9);
+        // Two rows for each frame.
+        let twice = (0..120).map(|row| {
+            let (second, part) = (row / 60, f64::from(row % 60) / 60.0);
+            format!(
+                "00:00:{second:02}:{:02}.{:03}",
+                row % 60 / 2,
+                (part * 1000.0).floor()
+            )
+        });
+        let times = read(&twice.collect::<Vec<_>>());
+        assert!(times.repeats && times.base == 30.0);
+        for (row, seconds) in (0..).zip(&times.seconds) {
+            assert!(
+                (seconds - f64::from(row) / 60.0).abs() < 0.0011,
+                "{row} {seconds}"
+            );
+        }
         let times = read(&codes(0, 120, 1, 60, |_| ".500".to_owned()));
         assert!(!times.repeats);
         assert!((times.seconds[90] - 90.5 / 60.0).abs() < 1e-9);
