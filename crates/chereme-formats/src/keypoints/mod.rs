@@ -1,7 +1,8 @@
 //! JSON of points that were estimated from film: OpenPose, one file a frame or one for a film, and MediaPipe's landmarks.
 //!
 //! Every person of OpenPose becomes a track of its own; from frame to frame a person is the one with the same number, or
-//! without numbers the one whose mean position is nearest. OpenPose states neither the rate of the film nor, in files of one frame, the size of its pictures.
+//! without numbers the one whose mean position is nearest. OpenPose states neither the rate of the film nor, in files of
+//! one frame, the size of its pictures.
 //!
 //! ```
 //! use chereme_formats::keypoints::{self, Reader};
