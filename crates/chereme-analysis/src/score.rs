@@ -11,8 +11,8 @@
 //! | configuration | the 21 angles of thumb and fingers, in radians | 1.6: all off by 20 degrees |
 //!
 //! The numbers describe the body, not the skeleton, so clips of different skeletons, sizes and places on
-//! the floor are comparable; channels that one of them lacks are left out and reported. The points are
-//! aligned by [dynamic time warping](crate::dtw).
+//! the floor are comparable; channels that one of them lacks, or that nobody captured, are left out and reported. The
+//! points are aligned by [dynamic time warping](crate::dtw).
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -95,7 +95,7 @@ pub struct Score {
     pub alignment: Vec<(usize, usize)>,
     /// Whether the policy for missing paths was needed.
     pub made: CostMethod,
-    /// The components that were not compared, because one or both of the skeletons do not show them.
+    /// The components that were not compared, because one or both of the clips do not show them.
     pub left_out: Vec<LeftOut>,
     /// Joints of the first clip without a counterpart in the second, by name.
     pub only_in_first: Vec<String>,
@@ -121,6 +121,20 @@ pub struct LeftOut {
     pub side: Side,
     /// Whether the first and the second clip show it.
     pub shown: (bool, bool),
+    /// Whether the first and the second clip have joints for it, but nobody captured them.
+    #[serde(default)]
+    pub uncaptured: (bool, bool),
+}
+
+/// A clip to be scored, with the parts of its body.
+#[derive(Debug, Clone, Copy)]
+pub struct Performed<'a> {
+    /// The movement.
+    pub clip: &'a Clip,
+    /// The parts of the body.
+    pub anatomy: &'a Anatomy,
+    /// The hands whose fingers nobody captured; their handshapes are not compared.
+    pub uncaptured: &'a [Side],
 }
 
 /// The reason why two clips cannot be scored.
@@ -138,6 +152,12 @@ pub enum ScoreError {
          they have"
     )]
     NothingInCommon,
+    /// Nothing but handshapes could be compared, and nobody captured them.
+    #[error(
+        "the two have only handshapes in common, and nobody captured them, as the fingers rest throughout; compare \
+         recordings whose fingers move, or that have joints of the arms"
+    )]
+    NothingCaptured,
     /// The alignment failed.
     #[error(transparent)]
     Dtw(#[from] DtwError),
@@ -149,28 +169,40 @@ pub enum ScoreError {
 /// The same as [`score_as`]'s.
 pub fn score(a: &Clip, b: &Clip, options: &ScoreOptions) -> Result<Score, ScoreError> {
     let (first, second) = (Anatomy::detect(a.skeleton()), Anatomy::detect(b.skeleton()));
-    score_as((a, &first), (b, &second), options)
+    let performed = |clip, anatomy| Performed {
+        clip,
+        anatomy,
+        uncaptured: &[],
+    };
+    score_as(performed(a, &first), performed(b, &second), options)
 }
 
-/// Returns the score of two clips, given the anatomy of each.
+/// Returns the score of two clips, given the anatomy of each and the hands that were not captured.
 ///
 /// # Errors
-/// [`ScoreError`] if a clip has no frames, the skeletons have no component in common, a scale is not positive,
+/// [`ScoreError`] if a clip has no frames, the skeletons have no captured component in common, a scale is not positive,
 /// or [`dtw::align`] refuses (no path under the requested pattern and window, too many cells).
 pub fn score_as(
-    a: (&Clip, &Anatomy),
-    b: (&Clip, &Anatomy),
+    a: Performed<'_>,
+    b: Performed<'_>,
     options: &ScoreOptions,
 ) -> Result<Score, ScoreError> {
-    for (clip, which) in [(a.0, "first"), (b.0, "second")] {
-        if clip.frames() == 0 {
+    for (performed, which) in [(a, "first"), (b, "second")] {
+        if performed.clip.frames() == 0 {
             return Err(ScoreError::Empty { which });
         }
     }
+    let uncaptured = (a.uncaptured, b.uncaptured);
+    let (a, b) = ((a.clip, a.anatomy), (b.clip, b.anatomy));
     let (mut first, mut second) = (features(a), features(b));
-    let left_out = keep_common(&mut first, &mut second);
+    let left_out = keep_common(&mut first, &mut second, uncaptured);
     if first.is_empty() {
-        return Err(ScoreError::NothingInCommon);
+        let captured = |it: &LeftOut| it.uncaptured == (false, false);
+        return Err(if left_out.iter().all(captured) {
+            ScoreError::NothingInCommon
+        } else {
+            ScoreError::NothingCaptured
+        });
     }
     let scales: Vec<f64> = first
         .iter()
@@ -183,7 +215,14 @@ pub fn score_as(
     let (query, reference) = (series(&first)?, series(&second)?);
     let aligned = dtw::align(&query, &reference, &options.dtw)?;
     let pairs = pairs_of(a, b);
-    let largest = largest_error(a, b, &pairs, &aligned.path);
+    let fingers = |anatomy: &Anatomy, sides: &[Side]| -> Vec<usize> {
+        let all = sides.iter().flat_map(|&side| anatomy.fingers(side));
+        all.collect()
+    };
+    let still = [fingers(a.1, uncaptured.0), fingers(b.1, uncaptured.1)];
+    let mut seen = pairs.clone();
+    seen.retain(|(left, right)| !still[0].contains(left) && !still[1].contains(right));
+    let largest = largest_error(a, b, &seen, &aligned.path);
     let name = |clip: &Clip, joint: usize| clip.skeleton().joint(joint).name.clone();
     let unpaired = |clip: &Clip, used: &dyn Fn(usize) -> bool| {
         (0..clip.skeleton().len())
@@ -312,12 +351,25 @@ fn velocity(column: &[f64], rate: Rate) -> Vec<f64> {
         .collect()
 }
 
-/// Drops the components that only one of the clips shows, and returns them.
-fn keep_common(first: &mut Features, second: &mut Features) -> Vec<LeftOut> {
+/// Drops the handshapes of uncaptured hands and the components that only one of the clips shows, and returns them.
+fn keep_common(
+    first: &mut Features,
+    second: &mut Features,
+    uncaptured: (&[Side], &[Side]),
+) -> Vec<LeftOut> {
     let mut left_out = Vec::new();
+    let drop = |features: &mut Features, sides: &[Side], (component, side): (Component, Side)| {
+        component == Component::Configuration
+            && sides.contains(&side)
+            && features.remove(&(component, side)).is_some()
+    };
     for component in MANUAL {
         for side in Side::BOTH {
             let key = (component, side);
+            let uncaptured = (
+                drop(first, uncaptured.0, key),
+                drop(second, uncaptured.1, key),
+            );
             let shown = (first.contains_key(&key), second.contains_key(&key));
             if shown != (true, true) {
                 first.remove(&key);
@@ -326,6 +378,7 @@ fn keep_common(first: &mut Features, second: &mut Features) -> Vec<LeftOut> {
                     component,
                     side,
                     shown,
+                    uncaptured,
                 });
             }
         }

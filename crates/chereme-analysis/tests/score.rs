@@ -1,7 +1,7 @@
 //! Scores of performances whose similarity is known.
 
 use chereme_analysis::dtw::{self, StepPattern, Window};
-use chereme_analysis::score::LeftOut;
+use chereme_analysis::score::{LeftOut, Performed, score_as};
 use chereme_analysis::{Score, ScoreError, ScoreOptions, score};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Anatomy, Clip, Instant, Joint, Part, Pose, Rate, Side, Skeleton};
@@ -276,6 +276,7 @@ fn two_bodies_are_compared_by_the_parts_that_both_have() {
                  component,
                  side,
                  shown,
+                 ..
              }| (*component, *side, *shown),
         )
         .collect();
@@ -367,4 +368,55 @@ fn a_score_is_written_under_the_keys_that_scripts_rely_on() {
         json["alignment"],
         serde_json::json!([[0, 0], [1, 1], [2, 2]])
     );
+}
+
+#[test]
+fn handshapes_that_nobody_captured_are_not_compared() {
+    let clip = performance(signer(1.0, "", true), 60);
+    let anatomy = Anatomy::detect(clip.skeleton());
+    let fingers = Side::BOTH.map(|side| anatomy.fingers(side)).concat();
+    let resting = |frame| {
+        let mut pose = clip.pose(frame);
+        for &joint in &fingers {
+            pose.rotations[joint] = clip.skeleton().joint(joint).rest;
+        }
+        pose
+    };
+    let poses: Vec<Pose> = (0..clip.frames()).map(resting).collect();
+    let skeleton = signer(1.0, "", true).into();
+    let still = Clip::from_poses(skeleton, clip.rate(), &poses).expect("a clip");
+    let both = Side::BOTH.as_slice();
+    let cases: [(&[Side], &[Side]); 4] = [
+        (&[], &[]),
+        (&[], &[Side::Left]),
+        (&[Side::Right], &[Side::Right]),
+        (both, both),
+    ];
+    for (first, second) in cases {
+        let performed = |clip, uncaptured| Performed {
+            clip,
+            anatomy: &anatomy,
+            uncaptured,
+        };
+        let (a, b) = (performed(&clip, first), performed(&still, second));
+        let found = score_as(a, b, &ScoreOptions::default()).expect("comparable");
+        let out = found.left_out.iter().map(|it| (it.side, it.uncaptured));
+        let out: Vec<_> = out.collect();
+        let want: Vec<_> = Side::BOTH
+            .into_iter()
+            .map(|side| (side, (first.contains(&side), second.contains(&side))))
+            .filter(|(_, uncaptured)| *uncaptured != (false, false))
+            .collect();
+        assert_eq!(out, want);
+        let handshapes = found.components.get(&Component::Configuration);
+        assert_eq!(handshapes.is_some(), want.len() < 2, "{want:?}");
+        // All but the fingers is the same movement.
+        assert_eq!(
+            found.normalized < Some(1e-9) && found.max_joint_error_m < Some(1e-9),
+            want.len() == 2,
+            "{want:?} {:?} {:?}",
+            found.normalized,
+            found.max_joint_error_m
+        );
+    }
 }

@@ -361,6 +361,25 @@ mod tests {
             );
             assert_eq!(shapes.is_empty(), expected.len() == 2, "{sides:?}");
 
+            let scored = corpus.score(&address, &address, &Default::default());
+            let scored = scored.expect("scored");
+            let left_out: Vec<Side> = scored.score.left_out.iter().map(|it| it.side).collect();
+            assert_eq!(left_out, expected, "{sides:?}");
+            let is_compared = scored
+                .score
+                .components
+                .contains_key(&Component::Configuration);
+            assert_eq!(is_compared, expected.len() < 2, "{sides:?}");
+            let lists = expected.iter().zip(&scored.findings);
+            assert_eq!(scored.findings.len(), expected.len(), "{sides:?}");
+            for (side, finding) in lists {
+                let start = format!("handshapes of the {} hand are not compared", side.name());
+                assert!(
+                    finding.starts_with(&start) && finding.ends_with(": chat"),
+                    "{finding}"
+                );
+            }
+
             let options = crate::ProposeOptions {
                 components: vec![Component::Configuration, Component::Orientation],
                 scope: crate::ProposeScope::Token(1),

@@ -154,6 +154,7 @@ pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use saved_search::{KeptSearch, kept_like};
+pub use score::Scored;
 pub use search::{
     Answer, FACET_VALUES, Finding, FindingKind, Hit, NO_VALUE, Order, SearchOptions, Tally,
     TallyRow, guessed, meant,

@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use chereme_analysis::score::{ScoreOptions, score_as};
+use chereme_analysis::score::{Performed, ScoreOptions, score_as};
 use chereme_analysis::transcribe::{Options, transcribe};
 use chereme_compose::notation::{Settings, animate};
 use chereme_motion::{Anatomy, Channel, Clip, Side};
@@ -49,7 +49,12 @@ pub(crate) fn table(files: &[&str]) -> Result<()> {
                 true => with_left_of(clip, &sign, &anatomy)?,
                 false => clip.clone(),
             };
-            crate::Result::Ok(score_as((&sign, &anatomy), (&clip, &anatomy), &options)?)
+            let performed = [&sign, &clip].map(|clip| Performed {
+                clip,
+                anatomy: &anatomy,
+                uncaptured: &[],
+            });
+            crate::Result::Ok(score_as(performed[0], performed[1], &options)?)
         };
         let (own, held, another) = (score(&again)?, score(&held)?, score(&another)?);
         let parts: Vec<String> = own

@@ -12,7 +12,8 @@ use crate::words::Words;
 /// Measure the similarity of two pieces of movement, and align them
 ///
 /// The score is the distance under dynamic time warping, over placement, movement, orientation and configuration, each
-/// in its own scale; 0 is the same movement.
+/// in its own scale; 0 is the same movement. Handshapes of hands that nobody captured, whose fingers rest throughout,
+/// are not compared; "findings" and "left_out" of `--json` list them.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
@@ -44,10 +45,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         return faces(&corpus, [&a, &b], args, output);
     }
     let options = ScoreOptions::default();
-    let score = match &args.draw {
+    let scored = match &args.draw {
         Some(path) => corpus.draw_alignment([&a, &b], &options, path, args.force)?,
         None => corpus.score(&a, &b, &options)?,
     };
+    let score = &scored.score;
     let normalized = score
         .normalized
         .map_or("none".to_owned(), |it| format!("{it:.2}"));
@@ -72,7 +74,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         "alignment: {}",
         output.counted(score.alignment.len() as u64, "pairs of frames")
     ))?;
-    output.document(score)
+    for finding in &scored.findings {
+        output.warn(finding)?;
+    }
+    output.document(scored)
 }
 
 fn faces(corpus: &Corpus, both: [&Address; 2], args: &Args, output: &mut Output) -> Result<()> {
@@ -145,8 +150,8 @@ pub(super) const WORDS: Words = Words {
             "La fonction des expressions, s’il y en a plusieurs",
         ),
         (
-            "The score is the distance under dynamic time warping, over placement, movement, orientation and configuration, each in its own scale; 0 is the same movement.",
-            "Le score est la distance par déformation temporelle dynamique, sur l’emplacement, le mouvement, l’orientation et la configuration, chacun à son échelle ; 0 est le même mouvement.",
+            "The score is the distance under dynamic time warping, over placement, movement, orientation and configuration, each in its own scale; 0 is the same movement. Handshapes of hands that nobody captured, whose fingers rest throughout, are not compared; \"findings\" and \"left_out\" of `--json` list them.",
+            "Le score est la distance par déformation temporelle dynamique, sur l’emplacement, le mouvement, l’orientation et la configuration, chacun à son échelle ; 0 est le même mouvement. Les configurations de mains que personne n’a captées, dont les doigts restent au repos, ne sont pas comparées ; « findings » et « left_out » de `--json` les nomment.",
         ),
     ],
     lines: &[

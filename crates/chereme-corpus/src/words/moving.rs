@@ -604,6 +604,26 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "les configurations ne sont pas proposées là où les doigts restent au repos, car personne ne les a captées : {names}",
     ),
     (
+        "handshapes of the {side} hand are not compared, as its fingers rest throughout and nobody captured them: {names}",
+        "les configurations de la main {side} ne sont pas comparées, car ses doigts restent au repos et personne ne les a captées : {names}",
+    ),
+    (
+        "not compared, as one or both of the skeletons have no joints for it: {names}",
+        "pas comparé, car l’un des squelettes au moins n’a pas d’articulations pour cela : {names}",
+    ),
+    (
+        "the two have only handshapes in common, and nobody captured them, as the fingers rest throughout",
+        "les deux n’ont en commun que des configurations, et personne ne les a captées : les doigts restent au repos",
+    ),
+    (
+        "compare recordings whose fingers move, or that have joints of the arms",
+        "comparez des enregistrements dont les doigts bougent, ou qui ont des articulations des bras",
+    ),
+    (
+        "{name} has a face but no body to compare",
+        "{name} a un visage, mais pas de corps à comparer",
+    ),
+    (
         "finger angles count from the straightest posture in this signer's takes, which is up to {n} degrees bent",
         "les angles des doigts se comptent depuis la posture la plus droite des prises de ce signeur, qui est pliée jusqu’à {n} degrés",
     ),
