@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use chereme_corpus::{Cause, CheckReport, Deleted, Error};
+use chereme_corpus::{Cause, CheckReport, Deleted, Error, Proposed};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role,
@@ -200,18 +200,7 @@ impl Notices {
                 };
                 fill(text.of(language), &[("n", steps)])
             }
-            Outcome::Proposed(it) if it.tokens == 0 && it.unread == 0 => {
-                let remedy = words::NOTICE_NO_SIGNS_REMEDY.of(language);
-                return self.say(words::NOTICE_NO_SIGNS.of(language), Some(remedy));
-            }
-            Outcome::Proposed(it) if it.tokens == 0 => {
-                let text = words::NOTICE_NOT_PROPOSED.of(language);
-                return self.say(&fill(text, &[("unread", &it.unread)]), None);
-            }
-            Outcome::Proposed(it) => fill(
-                words::NOTICE_PROPOSED.of(language),
-                &[("tokens", &it.tokens), ("unread", &it.unread)],
-            ),
+            Outcome::Proposed(done) => return self.proposed(done, language),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
                 let what = history::sentence(row, language);
@@ -229,6 +218,26 @@ impl Notices {
             _ => return,
         };
         self.hint(text);
+    }
+
+    /// Reports what was proposed, with the corpus's notes on what was not.
+    fn proposed(&mut self, done: &Proposed, language: Language) {
+        let values: [(&str, &dyn Display); 2] =
+            [("tokens", &done.tokens), ("unread", &done.unread)];
+        match (done.tokens, done.unread) {
+            (0, 0) => {
+                let remedy = words::NOTICE_NO_SIGNS_REMEDY.of(language);
+                self.say(words::NOTICE_NO_SIGNS.of(language), Some(remedy));
+            }
+            (0, _) => self.say(
+                &fill(words::NOTICE_NOT_PROPOSED.of(language), &values),
+                None,
+            ),
+            _ => self.hint(fill(words::NOTICE_PROPOSED.of(language), &values)),
+        }
+        for finding in &done.findings {
+            self.say(&spoken(finding, language), None);
+        }
     }
 
     /// Reports a deletion, and offers to undo it.
@@ -507,9 +516,9 @@ mod tests {
     fn proposals_without_signs_and_signs_that_cannot_be_read_are_reported_apart() {
         for (unread, want) in [(0, words::NOTICE_NO_SIGNS), (3, words::NOTICE_NOT_PROPOSED)] {
             let mut notices = Notices::default();
-            let proposed = chereme_corpus::Proposed {
+            let proposed = Proposed {
                 unread,
-                ..chereme_corpus::Proposed::default()
+                ..Proposed::default()
             };
             notices.of(&Outcome::Proposed(proposed), Language::English);
             let notice = notices.all.last().expect("a notice");
@@ -518,6 +527,37 @@ mod tests {
                 (&notice.text, notice.remedy.is_some()),
                 (&want, unread == 0)
             );
+        }
+    }
+
+    #[test]
+    fn notes_on_what_was_not_proposed_stay_in_both_languages() {
+        let finding = "handshapes are not proposed where fingers rest throughout, as nobody captured them: chat";
+        for (tokens, language, start) in [
+            (1, Language::English, "handshapes are not proposed"),
+            (
+                1,
+                Language::French,
+                "les configurations ne sont pas proposées",
+            ),
+            (0, Language::English, "handshapes are not proposed"),
+        ] {
+            let mut notices = Notices::default();
+            let proposed = Proposed {
+                tokens,
+                unread: 1 - tokens,
+                findings: vec![finding.to_owned()],
+                ..Proposed::default()
+            };
+            notices.of(&Outcome::Proposed(proposed), language);
+            assert_eq!(notices.all.len(), 2, "{tokens}");
+            let notice = &notices.all[1];
+            assert!(
+                notice.stays && notice.text.starts_with(start),
+                "{}",
+                notice.text
+            );
+            assert!(notice.text.ends_with(": chat"), "{}", notice.text);
         }
     }
 
