@@ -33,6 +33,7 @@ use crate::movement::{ChannelGroup, MotionTrack};
 use crate::search::index::SearchIndex;
 use learned::language::Samples;
 
+mod floor;
 mod language;
 mod learned;
 pub(crate) mod notation;
@@ -258,7 +259,9 @@ impl Sources for CorpusSources<'_> {
             Some(Ok(Address::Recording(name))) => {
                 let recording = address::recording(self.connection, &name)
                     .map_err(|error| missing(self, signer.unwrap_or_default(), &error))?;
-                return standing(self.connection, recording).map_err(|error| unreadable(&error));
+                return standing(self.connection, recording)
+                    .and_then(floor::grounded)
+                    .map_err(|error| unreadable(&error));
             }
             Some(Ok(Address::Signer(name))) => {
                 let row = address::signer(self.connection, &name);
@@ -282,23 +285,27 @@ impl Sources for CorpusSources<'_> {
                     .position(|it| *it == origin)
             };
             recordings.sort_by_key(|row| (rank(row.origin), row.id));
-            let mut spare = None;
+            // Bodies with fingers come before others, and those that stand before those that hang in the air.
+            let mut spare: Option<((bool, bool), Material)> = None;
             for recording in recordings {
                 if recordings::body_track(self.connection, recording.id)?.is_none() {
                     continue;
                 }
                 let material = standing(self.connection, recording)?;
-                if Side::BOTH
+                let has_fingers = Side::BOTH
                     .iter()
-                    .all(|&side| material.anatomy.has_fingers(side))
-                {
+                    .all(|&side| material.anatomy.has_fingers(side));
+                let fit = (has_fingers, floor::hanging(&material).is_none());
+                if fit == (true, true) {
                     return Ok(Some(material));
                 }
-                spare = spare.or(Some(material));
+                if spare.as_ref().is_none_or(|(best, _)| fit > *best) {
+                    spare = Some((fit, material));
+                }
             }
             match spare {
                 None if wanted.is_none() => notation::own_body().map(Some),
-                spare => Ok(spare),
+                spare => spare.map(|(_, body)| floor::grounded(body)).transpose(),
             }
         };
         find()
