@@ -71,10 +71,14 @@ pub struct CueKey {
 ///
 /// # Errors
 /// [`Error::Wrong`] if the code or a variant does not exist, the pace is no positive number, the input is
-/// larger than a MiB, or text is given for a code without rules of spelling.
+/// larger than a MiB, text is given for a code without rules of spelling, or there is nothing to cue in the input.
 pub fn cue_keys(input: &str, options: &KeysOptions) -> Result<CueKeys> {
     let read = Utterance::read(input, options).map_err(unread)?;
-    Ok(CueKeys::of(&read))
+    let keys = CueKeys::of(&read);
+    if keys.keys.is_empty() && keys.findings.is_empty() {
+        return Err(nothing_to_cue(input));
+    }
+    Ok(keys)
 }
 
 fn unread(error: UtteranceError) -> Error {
@@ -121,12 +125,18 @@ const MOST_FILE_BYTES: u64 = 1 << 28;
 /// it is the one that contains most of the labels.
 ///
 /// # Errors
-/// Fails if the file cannot be read, or has no such tier.
+/// Fails if the file cannot be read, or has no such tier, or nothing to cue on it.
 pub fn cue_keys_of_file(path: &Path, tier: Option<&str>, options: &KeysOptions) -> Result<CueKeys> {
     let (read, name, mut findings) = aligned(path, tier, options)?;
     let mut keys = CueKeys::of(&read);
     findings.append(&mut keys.findings);
     keys.findings = findings;
+    if keys.keys.is_empty() && keys.findings.is_empty() {
+        let text = format!("the tier {name:?} has no phones to cue");
+        return Err(Error::wrong(text)
+            .at(path.display().to_string())
+            .advise(Remedy::command("name one with --tier")));
+    }
     keys.tier = Some(name);
     keys.alphabet = Some(read.alphabet.name());
     Ok(keys)
@@ -499,5 +509,21 @@ mod tests {
         }
         let long = "a ".repeat(1 << 20);
         assert!(refuse(&long, KeysOptions::default()).contains("1 MiB"));
+        let phones = || KeysOptions {
+            phones: Some(Alphabet::Ipa),
+            ..KeysOptions::default()
+        };
+        for (nothing, options) in [
+            ("", KeysOptions::default()),
+            (" \n", KeysOptions::default()),
+            ("…", KeysOptions::default()),
+            ("", phones()),
+            ("#", phones()),
+        ] {
+            assert!(
+                refuse(nothing, options).contains("write words"),
+                "{nothing:?}"
+            );
+        }
     }
 }

@@ -419,6 +419,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "ce qui peut être proposé : {names}",
     ),
     (
+        "the tier {name} has no phones to cue",
+        "l’acteur {name} n’a pas de phones à coder",
+    ),
+    (
         "there is nothing to cue in {text}",
         "il n’y a rien à coder dans {text}",
     ),
