@@ -56,6 +56,7 @@ fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
         assert!(report.notes.concat().ends_with(note), "{:?}", report.notes);
         let bytes = std::fs::read(&to).expect("read");
         let (scene, _) = chereme_formats::gltf::read(&bytes, &|_| None).expect("a VRMA");
+        assert_eq!(scene.take.as_deref(), Some("X"), "the gloss");
         let curves = scene.morphs.expect("a face");
         let curve = curves.curves().iter().find(|it| it.name == shown);
         let values = curve.expect("the expression").values.values().flatten();
@@ -66,5 +67,21 @@ fn an_avatar_blinks_looks_and_speaks_by_the_names_of_vrm() {
         export(&again, &address("recording:1"), &table).expect("curves");
         let text = std::fs::read_to_string(table).expect("text");
         assert!(text.contains(shown), "{shown}: {text}");
+    }
+}
+
+#[test]
+fn an_animation_has_the_name_of_the_sign_or_of_the_recording() {
+    let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+    let mut place = Place::new();
+    let corpus = place.corpus(&[own.join("bol.bvh"), own.join("bol.eaf")]);
+    for (what, name) in [("BOL", "BOL"), ("token:1", "BOL"), ("recording:1", "bol")] {
+        for ending in ["glb", "vrma"] {
+            let to = place.path(&format!("{}.{ending}", what.replace(':', "_")));
+            export(&corpus, &address(what), &to).expect("written");
+            let bytes = std::fs::read(&to).expect("read");
+            let (scene, _) = chereme_formats::gltf::read(&bytes, &|_| None).expect("a scene");
+            assert_eq!(scene.take.as_deref(), Some(name), "{what} {ending}");
+        }
     }
 }

@@ -35,19 +35,26 @@ pub(super) fn glb(
     };
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
     let span = on_the_clock(&track, &clip, &frames);
-    let first = span.start();
-    let name = match stretch.token {
-        Some(_) => format!("{} {first}", stretch.recording.name),
-        None => stretch.recording.name.clone(),
-    };
-    let about = gltf::About {
-        name,
-        licence: stretch.recording.licence.clone(),
-        notes: notes(connection, stretch.recording.id, span)?,
-    };
+    let about = about(connection, stretch, span)?;
     let bytes = gltf::write(&clip, &about).map_err(|error| too_far(&error))?;
     put(out, &bytes)?;
     Ok(about.notes.len())
+}
+
+/// Returns the names, the licence and the annotations of a stretch: a sign is named by its gloss, and its scene by the
+/// recording and the time.
+fn about(connection: &Connection, stretch: &Stretch, span: Span) -> Result<gltf::About> {
+    let recording = &stretch.recording;
+    let token = stretch.token.as_ref();
+    let gloss = token
+        .map(|token| &token.gloss)
+        .filter(|gloss| !gloss.is_empty());
+    Ok(gltf::About {
+        name: gloss.unwrap_or(&recording.name).clone(),
+        source: token.map(|_| format!("{} {}", recording.name, span.start())),
+        licence: recording.licence.clone(),
+        notes: notes(connection, recording.id, span)?,
+    })
 }
 
 /// Returns the error for a place that does not fit into the file.
@@ -113,11 +120,7 @@ pub(super) fn vrma(
             missing.join(", ")
         ));
     }
-    let about = gltf::About {
-        name: stretch.recording.name.clone(),
-        licence: stretch.recording.licence.clone(),
-        notes: notes(connection, stretch.recording.id, span)?,
-    };
+    let about = about(connection, stretch, span)?;
     let bytes = vrma::write(&clip, &anatomy, &face, &about).map_err(|error| match error {
         vrma::WriteError::TooFar(error) => too_far(&error),
         vrma::WriteError::NoAvatar(reason) => Error::wrong(reason).advise(Remedy::command(

@@ -126,6 +126,54 @@ fn nodes_that_mark_the_end_of_a_bone_become_its_tip() {
 }
 
 #[test]
+fn nodes_have_exactly_the_names_of_the_joints() {
+    for (names, written) in [
+        (
+            ["mixamorig:Hips", "Arm.L", "Hand l"],
+            ["mixamorig:Hips", "Arm.L", "Hand l"],
+        ),
+        (
+            ["a/b", "jambe gauche é", "[2]"],
+            ["a/b", "jambe gauche é", "[2]"],
+        ),
+        (["a", "a", ""], ["a", "a (2)", "joint 3"]),
+    ] {
+        let joints = names.iter().enumerate();
+        let joints = joints.map(|(at, name)| Joint::new(*name, at.checked_sub(1), DVec3::Y));
+        let skeleton = Skeleton::new(joints.collect()).expect("a tree");
+        let clip = Clip::still(Arc::new(skeleton), Rate::new(30, 1).expect("a rate"), 2);
+        let bytes = write(&clip, &About::default()).expect("written");
+        let document = json_of(&bytes);
+        let nodes = (0..3).map(|at| document["nodes"][at]["name"].clone());
+        assert_eq!(nodes.collect::<Vec<_>>(), written);
+        for (at, (name, written)) in names.iter().zip(written).enumerate() {
+            let original = document["nodes"][at]["extras"]["name"].as_str();
+            assert_eq!(original, (*name != written).then_some(*name));
+        }
+    }
+}
+
+#[test]
+fn an_animation_and_its_scene_have_their_own_names() {
+    for (source, scene) in [(None, "CHAT"), (Some("take 1.2s"), "take 1.2s")] {
+        let about = About {
+            name: "CHAT".into(),
+            source: source.map(str::to_owned),
+            ..About::default()
+        };
+        let document = json_of(&write(&clip(), &about).expect("written"));
+        assert_eq!(document["animations"][0]["name"], "CHAT");
+        assert_eq!(document["scenes"][0]["name"], scene);
+    }
+}
+
+/// Returns the JSON of a GLB.
+fn json_of(bytes: &[u8]) -> serde_json::Value {
+    let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
+    serde_json::from_slice(&bytes[20..20 + length]).expect("JSON")
+}
+
+#[test]
 fn annotations_are_stored_where_blender_and_three_js_keep_them() {
     let note = Note {
         tier: "gloss".into(),
@@ -134,14 +182,12 @@ fn annotations_are_stored_where_blender_and_three_js_keep_them() {
         value: "CHAT \"x\"".into(),
     };
     let about = About {
-        name: "a".into(),
         licence: Some("CC0".into()),
         notes: vec![note],
+        ..About::default()
     };
     let bytes = write(&clip(), &about).expect("written");
-    let length = u32::from_le_bytes([bytes[12], bytes[13], bytes[14], bytes[15]]) as usize;
-    let document: serde_json::Value =
-        serde_json::from_slice(&bytes[20..20 + length]).expect("JSON");
+    let document = json_of(&bytes);
     let text = document["scenes"][0]["extras"]["chereme_annotations"]
         .as_str()
         .expect("a string");
@@ -403,6 +449,7 @@ fn golden_scenes_and_avatars() {
             end: 0.4,
             value: "CHAT".into(),
         }],
+        ..About::default()
     };
     let bytes = write(&clip(), &about).expect("written");
     scene_file(&mut out, &bytes);

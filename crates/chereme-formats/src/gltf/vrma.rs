@@ -209,7 +209,7 @@ pub fn write(
         "extensionsUsed": ["VRMC_vrm_animation"],
         "extensions": {"VRMC_vrm_animation": extension},
         "scene": 0,
-        "scenes": [{"name": about.name, "nodes": roots}],
+        "scenes": [{"name": about.scene(), "nodes": roots}],
         "nodes": nodes,
         "animations": [{
             "name": about.name,

@@ -24,12 +24,21 @@ pub struct Note {
 /// Descriptions to write into a GLB.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct About {
-    /// The name of the animation.
+    /// The name of the animation, such as the gloss of a sign.
     pub name: String,
+    /// The name of the scene, such as the recording and the time in it; without one it is that of the animation.
+    pub source: Option<String>,
     /// The terms under which the movement may be used.
     pub licence: Option<String>,
     /// The annotations.
     pub notes: Vec<Note>,
+}
+
+impl About {
+    /// Returns the name of the scene.
+    pub(super) fn scene(&self) -> &str {
+        self.source.as_ref().unwrap_or(&self.name)
+    }
 }
 
 const FLOAT: u32 = 5126;
@@ -119,10 +128,10 @@ for note in json.loads(scene["chereme_annotations"]):
 
 /// Returns a clip in metres of model space as a GLB.
 ///
-/// Joints keep their names except for characters that programs change; the node's `extras.name` holds the
-/// original name, and `extras.tip` the end of a bone without a further joint. The annotations are a JSON string in `scenes[0].extras.chereme_annotations`, where
-/// Blender keeps them, and JSON in `animations[0].extras`, where three.js does. `chereme_markers` in the former is
-/// a script that makes them markers of Blender's timeline.
+/// Joints keep their names; one whose name is empty or occurs again gets a unique name, and the node's `extras.name`
+/// holds the original one. `extras.tip` is the end of a bone without a further joint. The annotations are a JSON string
+/// in `scenes[0].extras.chereme_annotations`, where Blender keeps them, and JSON in `animations[0].extras`, where
+/// three.js does. `chereme_markers` in the former is a script that makes them markers of Blender's timeline.
 ///
 /// # Errors
 /// [`TooFar`] if a place does not fit into 32-bit numbers.
@@ -145,7 +154,7 @@ pub fn write(clip: &Clip, about: &About) -> Result<Vec<u8>, TooFar> {
     let mut document = json!({
         "asset": {"version": "2.0", "generator": format!("Chereme {}", env!("CARGO_PKG_VERSION"))},
         "scene": 0,
-        "scenes": [{"name": about.name, "nodes": roots, "extras": {
+        "scenes": [{"name": about.scene(), "nodes": roots, "extras": {
             "chereme_annotations": notes,
             "chereme_frames_per_second": rate.per_second(),
             "chereme_markers": MARKERS,
@@ -202,15 +211,10 @@ pub(super) fn plain(name: &str) -> String {
 }
 
 fn nodes(skeleton: &Skeleton) -> Vec<Value> {
-    let names: Vec<String> = skeleton
-        .joints()
-        .iter()
-        .map(|joint| plain(&joint.name))
-        .collect();
-    let names = unique(names.iter().map(String::as_str), "joint");
+    let names = skeleton.joints().iter().map(|joint| joint.name.as_str());
+    let names = unique(names, "joint");
     let mut nodes: Vec<Value> = Vec::new();
     for (at, (joint, name)) in skeleton.joints().iter().zip(names).enumerate() {
-        let name = plain(&name);
         let (mut node, mut extras) = (Map::new(), Map::new());
         if name != joint.name {
             extras.insert("name".into(), json!(joint.name));
