@@ -22,6 +22,23 @@ pub enum Name {
     Text(String),
 }
 
+impl Name {
+    /// Reads the name of a recording where nothing else can be meant: `recording:3`, `recording:"NGT Thanks"`, or the
+    /// bare name.
+    ///
+    /// # Errors
+    /// Fails if the text is empty or names something other than a recording.
+    pub fn of_recording(text: &str) -> Result<Self> {
+        match text.parse()? {
+            Address::Recording(name) => Ok(name),
+            Address::Gloss(name) => Ok(Self::Text(name)),
+            other => Err(Error::wrong(format!("{other} is no recording"))
+                .at(text)
+                .advise("write recording:3, or the name of a recording")),
+        }
+    }
+}
+
 /// The object that a text such as `token:41` names.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Address {
@@ -338,6 +355,19 @@ mod tests {
             ("signer:Anna", Address::Signer(Name::Text("Anna".into()))),
         ] {
             assert_eq!(text.parse::<Address>().ok(), Some(want), "{text}");
+        }
+        for (text, want) in [
+            ("recording:3", Some(Name::Number(3))),
+            ("recording:\"3\"", Some(Name::Text("3".into()))),
+            ("3", Some(Name::Text("3".into()))),
+            (" NGT Thanks ", Some(Name::Text("NGT Thanks".into()))),
+            ("\"two\"", Some(Name::Text("two".into()))),
+            ("token:41", None),
+            ("sign:LIMACE", None),
+            ("recording:", None),
+            (" ", None),
+        ] {
+            assert_eq!(Name::of_recording(text).ok(), want, "{text}");
         }
         for bad in ["token:x", "recording:", "", "tier:a", "recording:\"\""] {
             assert!(bad.parse::<Address>().is_err(), "{bad}");

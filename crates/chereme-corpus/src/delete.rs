@@ -150,6 +150,10 @@ impl Plan {
                 Address::Sign(name) => {
                     plan.signs.insert(sign(connection, name)?);
                 }
+                Address::Gloss(name) => match bare(connection, name)? {
+                    Bare::Recording(id) => drop(plan.recordings.insert(id)),
+                    Bare::Sign(id) => drop(plan.signs.insert(id)),
+                },
                 other => return Err(not_here(other)),
             }
         }
@@ -370,6 +374,28 @@ fn sign(connection: &Connection, name: &Name) -> Result<i64> {
     }
 }
 
+/// The object of a bare name.
+enum Bare {
+    Recording(i64),
+    Sign(i64),
+}
+
+/// Returns the sign or the recording with a bare name, if only one of the two has it.
+fn bare(connection: &Connection, name: &str) -> Result<Bare> {
+    let recording = recordings::recording_named(connection, name)?;
+    match (address::sign(connection, name), recording) {
+        (Ok(id), None) => Ok(Bare::Sign(id)),
+        (Err(_), Some(recording)) => Ok(Bare::Recording(recording.id)),
+        (Ok(_), Some(_)) => {
+            let text = format!("{name:?} is both a sign and a recording");
+            Err(Error::wrong(text)
+                .at(name)
+                .advise(format!("write sign:{name:?} or recording:{name:?}")))
+        }
+        (Err(error), None) => Err(error),
+    }
+}
+
 /// Returns the error for something that is removed in another way.
 fn not_here(address: &Address) -> Error {
     let remedy = match address {
@@ -379,7 +405,6 @@ fn not_here(address: &Address) -> Error {
         Address::Tier(_) => {
             Remedy::command("remove a tier with `chereme annotate CORPUS remove-tier TIER`")
         }
-        Address::Gloss(_) => "write sign:GLOSS, or recording:NAME".into(),
         _ => "write recording:3, recording:NAME or sign:GLOSS".into(),
     };
     Error::wrong(format!("{address} is neither a recording nor a sign"))

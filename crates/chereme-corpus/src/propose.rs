@@ -104,6 +104,30 @@ type Subject = (Component, Option<String>, HandRef);
 type Values = BTreeMap<(String, Subject), Vec<Value>>;
 
 impl Corpus {
+    /// Returns the scope that an address names: a recording, a token, or a bare name, which is a sign's citation form or,
+    /// if no sign has it, a recording.
+    ///
+    /// # Errors
+    /// Fails if the address names something else, or nothing in the corpus.
+    pub fn propose_scope(&self, address: &Address) -> Result<ProposeScope> {
+        match address {
+            Address::Recording(name) => Ok(ProposeScope::Recording(name.clone())),
+            Address::Token(token) => Ok(ProposeScope::Token(*token)),
+            Address::Gloss(_) | Address::Sign(_) => {
+                let stretch = crate::address::stretch(self.store.read(), address)?;
+                Ok(match stretch.token {
+                    Some(token) => ProposeScope::Token(token.id),
+                    None => ProposeScope::Recording(Name::Number(stretch.recording.id)),
+                })
+            }
+            other => Err(
+                Error::wrong(format!("{other} is no recording and no token"))
+                    .at(other.to_string())
+                    .advise("name one, such as recording:3 or token:41"),
+            ),
+        }
+    }
+
     /// Proposes one component for every token of the corpus without a value for it, see [`propose`](Self::propose).
     ///
     /// # Errors
@@ -463,4 +487,47 @@ fn confidence(
     let of_kind = features.iter().filter(|it| kinds.contains(&it.feature));
     let least = of_kind.filter(within).filter_map(sure).reduce(f64::min);
     least.map(|it| (it * 1000.0).round() / 1000.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{ImportOptions, unheard};
+
+    #[test]
+    fn a_scope_is_named_by_address_or_by_name_alone() {
+        let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let files = ["bol.bvh", "bol.eaf", "phrase.bvh"].map(|name| own.join(name));
+        let mut hear = unheard;
+        corpus
+            .import(
+                &files,
+                &ImportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("taken in");
+        let phrase = corpus.movement(&"phrase".parse().expect("an address"));
+        let phrase = phrase.expect("movement").stretch.recording.id;
+        let text = |name: &str| Name::Text(name.to_owned());
+        for (address, want) in [
+            ("token:1", Some(ProposeScope::Token(1))),
+            ("BOL", Some(ProposeScope::Token(1))),
+            ("sign:BOL", Some(ProposeScope::Token(1))),
+            (
+                "phrase",
+                Some(ProposeScope::Recording(Name::Number(phrase))),
+            ),
+            (
+                "recording:phrase",
+                Some(ProposeScope::Recording(text("phrase"))),
+            ),
+            ("nobody", None),
+            ("tier:1", None),
+        ] {
+            let found = corpus.propose_scope(&address.parse().expect("an address"));
+            assert_eq!(found.ok(), want, "{address}");
+        }
+    }
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use anyhow::{Result, bail};
+use anyhow::Result;
 use chereme_corpus::{
     Address, DETECTORS, DetectOptions, Detector, Progress, ProposeOptions, ProposeScope, Proposed,
     Step,
@@ -72,11 +72,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         ))?;
         return output.document(report);
     }
-    let scope = match args.only.as_deref().map(str::parse).transpose()? {
+    let scope = match &args.only {
         None => ProposeScope::All,
-        Some(Address::Recording(name)) => ProposeScope::Recording(name),
-        Some(Address::Token(token)) => ProposeScope::Token(token),
-        Some(other) => bail!("{other} is no recording and no token; name one, such as recording:3"),
+        Some(only) => corpus.propose_scope(&only.parse::<Address>()?)?,
     };
     if let Some(detector) = &args.detector {
         let options = DetectOptions {
@@ -172,10 +170,6 @@ pub(super) const WORDS: Words = Words {
         (
             "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
             "{annotations} dans {recordings}, pour {tokens} ; illisible dans le mouvement : {unread}",
-        ),
-        (
-            "{name} is no recording and no token; name one, such as recording:3",
-            "{name} n’est ni un enregistrement ni une occurrence ; nommez-en un, comme recording:3",
         ),
     ],
     titles: &[],

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::{Address, Error, MediaChange, Name, Signal, TrackChange, TrackRow};
+use chereme_corpus::{Error, MediaChange, Name, Signal, TrackChange, TrackRow};
 use serde_json::json;
 
 use crate::args::Cli;
@@ -77,13 +77,12 @@ pub(crate) struct Args {
     store: bool,
 }
 
-/// Parses the address of a recording, such as `recording:3`.
+/// Parses the address of a recording, such as `recording:3`, or its bare name.
 pub(super) fn recording(text: &str) -> Result<Name, String> {
-    match text.parse() {
-        Ok(Address::Recording(name)) => Ok(name),
-        Ok(_) => Err("write recording:3 or recording:\"NAME\"".to_owned()),
-        Err(error) => Err(error.to_string()),
-    }
+    Name::of_recording(text).map_err(|error| {
+        let remedy = error.remedy().map(|remedy| remedy.to_string());
+        remedy.unwrap_or_else(|| error.to_string())
+    })
 }
 
 /// Parses a time such as `0.48s`, `480ms` or `-0.48`, in seconds if it has no unit; returns microseconds.
@@ -271,10 +270,6 @@ pub(super) const WORDS: Words = Words {
             "c’est incertain : regardez les deux pistes avant de vous en servir, ou nommez d’autres canaux",
         ),
         (
-            "write recording:3 or recording:\"NAME\"",
-            "écrivez recording:3 ou recording:\"NOM\"",
-        ),
-        (
             "write a time in seconds such as 0.48s, or 480ms",
             "écrivez un temps en secondes comme 0.48s, ou 480ms",
         ),
@@ -285,6 +280,20 @@ pub(super) const WORDS: Words = Words {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn recordings_are_named_by_address_or_by_name_alone() {
+        let named = |name: &str| Ok(Name::Text(name.to_owned()));
+        let refused = Err("write recording:3, or the name of a recording".to_owned());
+        for (text, want) in [
+            ("recording:3", Ok(Name::Number(3))),
+            ("recording:\"two\"", named("two")),
+            ("two", named("two")),
+            ("token:41", refused),
+        ] {
+            assert_eq!(recording(text), want, "{text}");
+        }
+    }
 
     #[test]
     fn times_are_read_with_and_without_a_unit() {

@@ -284,13 +284,39 @@ fn only_recordings_and_signs_are_deleted_here() {
     for (what, remedy) in [
         ("token:1", "annotate CORPUS remove"),
         ("tier:1", "remove-tier"),
-        ("BOL", "sign:GLOSS"),
+        ("LIMACE", "sign:\"LIMACE\" or recording:\"LIMACE\""),
+        ("nobody", "list CORPUS signs"),
         ("recording:nobody", "list CORPUS recordings"),
         ("sign:9999", "list CORPUS signs"),
     ] {
         let refused = delete(&mut corpus, what, Dependents::Delete).expect_err(what);
         let said = refused.remedy().unwrap_or_default();
         assert!(said.text().contains(remedy), "{what}: {said}");
+    }
+}
+
+#[test]
+fn a_bare_name_deletes_the_only_sign_or_recording_of_that_name() {
+    let (_folder, mut corpus) = corpus();
+    corpus
+        .change_recording(
+            &Name::Text("bol".into()),
+            &crate::RecordingChange {
+                name: Some("take one".into()),
+                ..Default::default()
+            },
+        )
+        .expect("renamed");
+    for (name, recordings) in [("BOL", 0), ("\"take one\"", 1)] {
+        let what = [name.parse().expect("an address")];
+        let options = DeleteOptions {
+            dependents: Dependents::Delete,
+            dry_run: true,
+        };
+        let deleted = corpus.delete(&what, options, &mut Progress::new(&mut unheard));
+        let deleted = deleted.expect(name);
+        assert_eq!(deleted.recordings.len(), recordings, "{name} {deleted:?}");
+        assert_eq!(deleted.signs, ["BOL"], "{name}");
     }
 }
 

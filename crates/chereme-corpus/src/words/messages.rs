@@ -279,8 +279,8 @@ const MESSAGES: &[(&str, &str)] = &[
         "écrivez recording:3, recording:NOM ou sign:GLOSE",
     ),
     (
-        "write sign:GLOSS, or recording:NAME",
-        "écrivez sign:GLOSE ou recording:NOM",
+        "write sign:{gloss} or recording:{name}",
+        "écrivez sign:{gloss} ou recording:{name}",
     ),
     ("there is nothing to undo", "il n’y a rien à annuler"),
     ("there is nothing to redo", "il n’y a rien à rétablir"),

@@ -624,6 +624,26 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "{name} a un visage, mais pas de corps à comparer",
     ),
     (
+        "{name} is no recording and no token",
+        "{name} n’est ni un enregistrement ni une occurrence",
+    ),
+    (
+        "name one, such as recording:3 or token:41",
+        "nommez-en un, comme recording:3 ou token:41",
+    ),
+    (
+        "{name} is no recording",
+        "{name} n’est pas un enregistrement",
+    ),
+    (
+        "write recording:3, or the name of a recording",
+        "écrivez recording:3, ou le nom d’un enregistrement",
+    ),
+    (
+        "{name} is both a sign and a recording",
+        "{name} est à la fois un signe et un enregistrement",
+    ),
+    (
         "finger angles count from the straightest posture in this signer's takes, which is up to {n} degrees bent",
         "les angles des doigts se comptent depuis la posture la plus droite des prises de ce signeur, qui est pliée jusqu’à {n} degrés",
     ),
