@@ -9,7 +9,8 @@ use std::path::{MAIN_SEPARATOR, Path};
 const MOST: usize = 5000;
 
 /// Returns the files and folders whose paths begin with a typed one, folders first and with a final separator; hidden
-/// ones only after a dot. An unreadable folder gives an empty list.
+/// ones only after a dot, and no files that the database of an open corpus keeps beside it. An unreadable folder gives
+/// an empty list.
 #[must_use]
 pub fn paths_like(typed: &str) -> Vec<String> {
     let (folder, start) = match typed.rfind(['/', MAIN_SEPARATOR]) {
@@ -27,6 +28,9 @@ pub fn paths_like(typed: &str) -> Vec<String> {
         if hidden || !name.to_lowercase().starts_with(&wanted) {
             continue;
         }
+        if is_companion(&entry.path()) {
+            continue;
+        }
         if entry.path().is_dir() {
             folders.push(format!("{folder}{name}{MAIN_SEPARATOR}"));
         } else {
@@ -37,6 +41,17 @@ pub fn paths_like(typed: &str) -> Vec<String> {
     files.sort();
     folders.append(&mut files);
     folders
+}
+
+/// Returns whether a file is kept by a database beside its own file while it is open.
+fn is_companion(path: &Path) -> bool {
+    let Some(name) = path.file_name().and_then(OsStr::to_str) else {
+        return false;
+    };
+    let of = ["-shm", "-wal", "-journal"]
+        .into_iter()
+        .find_map(|ending| name.strip_suffix(ending));
+    of.is_some_and(|name| path.with_file_name(name).is_file())
 }
 
 /// Returns a path or a name of a file as text, for storage and reports.
@@ -87,6 +102,23 @@ mod tests {
         let bolero = format!("bolero{MAIN_SEPARATOR}");
         assert_eq!(names("bol"), [bolero.as_str(), "Bol.eaf", "bol.bvh"]);
         assert_eq!(names(".b"), [".bolt"]);
+        for (name, is_offered) in [
+            ("mine.chereme", true),
+            ("mine.chereme-shm", false),
+            ("mine.chereme-wal", false),
+            ("mine.chereme-journal", false),
+            ("my-wal", true),
+            ("-shm", true),
+        ] {
+            fs::write(folder.path().join(name), "").expect("written");
+            assert_eq!(names(name).contains(&name.to_owned()), is_offered, "{name}");
+            if is_offered && name != "mine.chereme" {
+                fs::remove_file(folder.path().join(name)).expect("removed");
+            }
+        }
+        for name in ["", "-shm", "-wal", "-journal"] {
+            fs::remove_file(folder.path().join(format!("mine.chereme{name}"))).expect("removed");
+        }
         assert_eq!(names("").len(), 4);
         assert!(names("nowhere/").is_empty() && paths_like("plain").is_empty());
     }

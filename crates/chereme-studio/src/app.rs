@@ -317,7 +317,6 @@ impl Studio {
                     }
                     self.panes.hear(id, &ended);
                     self.overlays.export.hear(id, &ended);
-                    self.overlays.typed_path.hear(id, &ended);
                     if let Ok(Outcome::Imported(report)) = &ended
                         && !report.dry_run
                         && std::mem::take(&mut self.looking)

@@ -115,7 +115,6 @@ impl Export {
     }
 
     pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.paths.hear(id, ended);
         // An answer without facets is only a count or a later page.
         if let Ok(Outcome::Found(answer)) = ended
             && !answer.facets.is_empty()
@@ -253,7 +252,7 @@ impl Export {
         let line = Line::default();
         let typed = self
             .paths
-            .show(ui, Id::unique("export path"), line, &mut self.to, out);
+            .show(ui, Id::unique("export path"), line, &mut self.to);
         let entered = typed.response.lost_focus() && ui.input(|it| it.key_pressed(Key::Enter));
         typed.response.labelled_by(label.id);
         if typed.changed {

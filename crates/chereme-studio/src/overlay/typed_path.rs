@@ -11,7 +11,6 @@ use crate::panes::complete::Line;
 use crate::panes::import::Paths;
 use crate::words::{Text, fill, shell as words};
 use crate::work::begin::with_extension;
-use crate::work::{Ended, WorkId};
 
 /// The width of the window in points, if the window around it is wide enough.
 const WIDE: f32 = 520.0;
@@ -36,10 +35,6 @@ impl TypedPath {
             fresh: true,
             paths: Paths::default(),
         };
-    }
-
-    pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.paths.hear(id, ended);
     }
 }
 
@@ -136,7 +131,7 @@ impl Studio {
             let TypedPath {
                 paths, text, fresh, ..
             } = &mut *asking;
-            let typed = paths.show(ui, id, Line::default(), text, out);
+            let typed = paths.show(ui, id, Line::default(), text);
             let entered =
                 typed.response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             // The window is measured first, and cannot have the keyboard then.
@@ -301,6 +296,52 @@ mod tests {
             assert_eq!(open(&window), Some(target), "the copy is open");
             idle(&mut window);
         }
+    }
+
+    #[test]
+    fn paths_are_completed_before_a_corpus_is_open_and_without_its_companions() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for name in [
+            "mine.chereme",
+            "mine.chereme-shm",
+            "mine.chereme-wal",
+            "take.bvh",
+        ] {
+            std::fs::write(folder.path().join(name), "").expect("written");
+        }
+        std::fs::create_dir(folder.path().join("more")).expect("made");
+        let base = format!("{}/", folder.path().display());
+        let mut window = window(None);
+        let command = crate::command::Command::Choose(Choose::Corpus);
+        window.state_mut().out.send(command);
+        window.run_steps(4);
+        window.state_mut().overlays.typed_path.text = format!("{base}m");
+        let there = |window: &Driven<'_>, name: &str| {
+            let label = format!("{base}{name}");
+            window.query_all_by_label(&label).next().is_some()
+        };
+        for _ in 0..2_000 {
+            window.step();
+            if there(&window, "mine.chereme") {
+                break;
+            }
+            std::thread::sleep(std::time::Duration::from_millis(5));
+        }
+        for (name, want) in [
+            ("mine.chereme", true),
+            ("more/", true),
+            ("mine.chereme-shm", false),
+            ("mine.chereme-wal", false),
+        ] {
+            assert_eq!(there(&window, name), want, "{name}");
+        }
+        // An arrow chooses the folder, which comes first; then its contents are offered.
+        press(&mut window, Key::ArrowDown);
+        press(&mut window, Key::Enter);
+        assert_eq!(
+            window.state().overlays.typed_path.text,
+            format!("{base}more/")
+        );
     }
 
     #[test]

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     Address, ExportOptions, ExportWhat, ImportOptions, Performance, PictureOptions, SearchOptions,
-    draw_clip, paths_like,
+    draw_clip,
 };
 
 use super::{About, Job, Outcome};
@@ -43,13 +43,6 @@ pub(crate) fn import(paths: Vec<PathBuf>, options: ImportOptions) -> Job {
     Job::new(about, move |corpus, progress| {
         let report = corpus.import(&paths, &options, progress);
         report.map(Outcome::Imported)
-    })
-}
-
-/// Completes a typed path.
-pub(crate) fn paths(typed: String) -> Job {
-    Job::new(About::ASK, move |_, _| {
-        Ok(Outcome::Paths(paths_like(&typed)))
     })
 }
 

@@ -61,8 +61,6 @@ pub(crate) enum Outcome {
     Previewed(Arc<Recombination>),
     /// Suggested recipes.
     Suggested(Suggestions),
-    /// The completions of a typed path.
-    Paths(Vec<String>),
     /// Files were written.
     Exported(ExportReport),
     /// The stage was drawn to a file.

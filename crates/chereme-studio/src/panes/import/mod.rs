@@ -95,7 +95,7 @@ impl Import {
         if std::mem::take(&mut self.come) {
             ui.memory_mut(|memory| memory.request_focus(id));
         }
-        let typed = self.paths.show(ui, id, line, &mut self.path, out);
+        let typed = self.paths.show(ui, id, line, &mut self.path);
         let (entered, changed) = (typed.entered, typed.changed);
         typed.response.labelled_by(label.id);
         if changed {
@@ -254,7 +254,6 @@ impl Pane for Import {
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
-        self.paths.hear(id, ended);
         if self.asked.take_if(|asked| *asked == id).is_none() {
             return;
         }

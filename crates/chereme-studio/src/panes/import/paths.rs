@@ -1,39 +1,33 @@
 //! A field for a path, with completions.
 
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+
+use chereme_corpus::paths_like;
 use eframe::egui::{Id, Ui};
 
-use crate::context::Outbox;
 use crate::panes::complete::{Line, Typed, complete, fitting};
-use crate::work::{Ended, Outcome, WorkId, exchange};
 
-/// The requested completions of a typed path.
+/// The requested completions of a typed path. Folders are read on a thread of their own, as they need no corpus and may
+/// be slow.
 #[derive(Default)]
 pub(crate) struct Paths {
     of: String,
-    asked: Option<WorkId>,
+    asked: Option<Receiver<Vec<String>>>,
     all: Vec<String>,
 }
 
 impl Paths {
     /// Shows the field of a path with completions.
-    pub(crate) fn show(
-        &mut self,
-        ui: &mut Ui,
-        id: Id,
-        line: Line<'_>,
-        text: &mut String,
-        out: &mut Outbox,
-    ) -> Typed {
+    pub(crate) fn show(&mut self, ui: &mut Ui, id: Id, line: Line<'_>, text: &mut String) -> Typed {
         let folder = |text: &str| text.rfind('/').map(|at| text[..=at].to_owned());
         let focused = ui.memory(|memory| memory.has_focus(id));
         if focused
             && let Some(folder) = folder(text)
             && folder != self.of
         {
-            self.asked = Some(out.work(exchange::paths(folder.clone())));
-            self.of = folder;
-            self.all.clear();
+            self.ask(ui, folder);
         }
+        self.hear();
         let candidates = |typed: &str| fitting(self.all.iter().map(String::as_str), typed);
         let line = Line {
             // A folder is a valid path by itself.
@@ -43,11 +37,26 @@ impl Paths {
         complete(ui, id, line, text, &candidates)
     }
 
-    pub(crate) fn hear(&mut self, id: WorkId, ended: &Ended) {
-        if self.asked.take_if(|asked| *asked == id).is_some()
-            && let Ok(Outcome::Paths(all)) = ended
-        {
-            self.all.clone_from(all);
+    /// Begins to read a folder.
+    fn ask(&mut self, ui: &Ui, folder: String) {
+        let (sender, found) = channel();
+        let (ctx, typed) = (ui.ctx().clone(), folder.clone());
+        std::thread::spawn(move || {
+            // The field may have another folder by then.
+            let _ = sender.send(paths_like(&typed));
+            ctx.request_repaint();
+        });
+        self.asked = Some(found);
+        self.of = folder;
+        self.all.clear();
+    }
+
+    /// Takes the contents of a folder once they are read.
+    fn hear(&mut self) {
+        match self.asked.as_ref().map(Receiver::try_recv) {
+            Some(Ok(all)) => (self.all, self.asked) = (all, None),
+            Some(Err(TryRecvError::Disconnected)) => self.asked = None,
+            Some(Err(TryRecvError::Empty)) | None => {}
         }
     }
 }
