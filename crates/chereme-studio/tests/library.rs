@@ -325,3 +325,109 @@ fn a_list_without_entries_differs_from_a_filter_that_nothing_fits() {
         says(it, "une carte en demande deux")
     });
 }
+
+/// Returns a file of the markers of two people who stand as the signer of a starter capture does.
+fn two_people(folder: &Path) -> std::path::PathBuf {
+    let labels = [
+        "LFHD", "RFHD", "C7", "LSHO", "RSHO", "LELB", "RELB", "LWRA", "RWRA", "LWRB", "RWRB",
+        "LFIN", "RFIN", "LKNE", "RKNE", "LANK", "RANK",
+    ];
+    let path = small_corpus(folder);
+    let corpus = Corpus::open(&path, "A").expect("open");
+    let signer = corpus.movement(&"recording:1".parse().expect("an address"));
+    let signer = signer.expect("movement");
+    let model = signer.clip.model_pose(0);
+    let (mut names, mut axes, mut places) = (String::new(), String::new(), String::new());
+    let people = ["Anna", "Bob"]
+        .into_iter()
+        .flat_map(|it| labels.map(|label| (it, label)));
+    for (n, (person, label)) in (1..).zip(people) {
+        let known = chereme_motion::fit::attachment(label).expect("a known label");
+        let part = known.near.or(known.towards.map(|(part, _)| part));
+        let joint = signer
+            .anatomy
+            .joint(part.unwrap_or(known.on[0]))
+            .expect("a joint");
+        let at = model.position(joint) * 1000.0;
+        names += &format!("{person}:{label}\t\t\t");
+        axes += &format!("X{n}\tY{n}\tZ{n}\t");
+        places += &format!(
+            "\t{:.2}\t{:.2}\t{:.2}",
+            at.x,
+            at.y,
+            at.z + 1000.0 * known.thumbwards
+        );
+    }
+    let mut text = format!(
+        "PathFileType\t4\t(X/Y/Z)\tduo.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\
+         100\t100\t10\t{}\tmm\nFrame#\tTime\t{names}\n\t\t{axes}\n\n",
+        2 * labels.len()
+    );
+    for frame in 0..10 {
+        text += &format!("{}\t{:.2}{places}\n", frame + 1, f64::from(frame) / 100.0);
+    }
+    let file = folder.join("duo.trc");
+    std::fs::write(&file, text).expect("written");
+    file
+}
+
+#[test]
+fn a_body_is_fitted_to_the_markers_of_the_person_who_is_chosen() {
+    for (language, menu, entry, title, done) in [
+        (
+            Language::English,
+            None,
+            "Fit a body to the markers…",
+            "Whose markers?",
+            "A body is fitted to",
+        ),
+        (
+            Language::French,
+            Some("Édition"),
+            "Ajuster un corps aux marqueurs…",
+            "Les marqueurs de qui ?",
+            "Un corps est ajusté à",
+        ),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = two_people(folder.path());
+        let path = folder.path().join("c.chereme");
+        let mut corpus = Corpus::create(&path, "A").expect("made");
+        let mut hear = unheard;
+        corpus
+            .import(
+                &[file],
+                &ImportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("imported");
+        drop(corpus);
+        let mut window = window(Options {
+            corpus: Some(path.clone()),
+            language,
+            ..options(folder.path())
+        });
+        until(&mut window, "the recording", |window| says(window, "duo"));
+        idle(&mut window);
+        // From the entry of the list, or from the menu for the recording on display.
+        match menu {
+            None => window.get_by_label("duo").click_secondary(),
+            Some(menu) => click(&mut window, menu),
+        }
+        window.run_steps(4);
+        window.get_by_label_contains(entry).click();
+        window.run_steps(2);
+        until(&mut window, "the question", |window| says(window, title));
+        assert!(has(&window, "Anna") && has(&window, "Bob"));
+        click(&mut window, "Bob");
+        until(&mut window, "the notice", |window| says(window, done));
+        idle(&mut window);
+        assert!(!says(&window, title), "the question is answered");
+        let corpus = Corpus::open(&path, "A").expect("open");
+        let take = chereme_corpus::Name::Number(1);
+        let tracks = corpus.tracks(&take).expect("tracks");
+        assert!(tracks.iter().any(|it| it.name == "body"), "{language:?}");
+        let summary = &corpus.log(1).expect("read")[0].summary;
+        assert!(summary.contains("of Bob, "), "{summary}");
+    }
+}

@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use chereme_motion::fit::{FitError, Fitted, fit};
-use chereme_motion::{Anatomy, Column, Convention, Curve, Curves, Side, Skeleton, Times};
+use chereme_motion::fit::{FitError, Fitted, fit, people};
+use chereme_motion::{
+    Anatomy, Column, Convention, Curve, Curves, Instant, Side, Skeleton, Span, Times,
+};
 use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -81,6 +83,22 @@ pub struct FitResidual {
 }
 
 impl Corpus {
+    /// Returns the people to whom the markers of a recording belong if they are those of several;
+    /// [`fit_markers`](Self::fit_markers) needs the name of one of them then. None if they are those of one person.
+    ///
+    /// # Errors
+    /// Fails if there is no such recording or track of markers.
+    pub fn marker_people(&self, recording: &Name, track: Option<&str>) -> Result<Vec<String>> {
+        let connection = self.store.read();
+        let row = address::recording(connection, recording)?;
+        let markers = chosen(connection, &row.name, row.id, track)?;
+        // The names are in every piece of the track.
+        let begin = Instant::from_micros(markers.offset_us);
+        let piece = Span::between(begin, begin);
+        let points = read::markers(connection, &markers, Some(piece))?;
+        Ok(people(&points))
+    }
+
     /// Fits a skeleton to a recording's markers: that of another recording, or the program's own body.
     ///
     /// The movement becomes a track `body` of the recording (another name if it has one), and the distance of every

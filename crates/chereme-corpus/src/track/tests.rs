@@ -489,6 +489,35 @@ fn a_check_names_the_track_of_any_kind_whose_numbers_are_damaged() {
     }
 }
 
+#[test]
+fn the_people_of_markers_are_listed_if_there_are_several() {
+    let (_folder, mut corpus, take) = corpus();
+    let cases: [(&[&str], &[&str]); 4] = [
+        (&[""], &[]),
+        (&["Anna"], &[]),
+        (&["Anna", "Bob"], &["Anna", "Bob"]),
+        (&["", "Bob"], &["(no name)", "Bob"]),
+    ];
+    for (subjects, want) in cases {
+        let track = worn(subjects, &[], 1.0);
+        let new = [NewTrack::new("markers", Track::Markers(track))];
+        let rows = corpus.add_tracks(&take, &new).expect("stored");
+        let people = corpus.marker_people(&take, Some(&rows[0].name));
+        assert_eq!(people.expect("read"), want, "{subjects:?}");
+        for name in want {
+            let options = crate::FitOptions {
+                track: Some(&rows[0].name),
+                subject: Some(name),
+                dry_run: true,
+                ..crate::FitOptions::default()
+            };
+            assert!(corpus.fit_markers(&take, &options).is_ok(), "{name}");
+        }
+    }
+    let nowhere = crate::Name::Text("nowhere".into());
+    assert!(corpus.marker_people(&nowhere, None).is_err());
+}
+
 /// Returns markers on the program's own body at rest, each named `subject:label`.
 fn worn(subjects: &[&str], without: &[&str], metres_per_unit: f64) -> Markers {
     let labels = [

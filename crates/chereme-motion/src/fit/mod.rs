@@ -147,6 +147,13 @@ struct Used {
     place: DVec3,
 }
 
+/// Returns the names of the people to whom markers belong if they are those of several, such as `Anna` and `Bob` for
+/// `Anna:LSHO` and `Bob:LSHO`: [`fit`] needs the name of one of them then. None if they are those of one person.
+#[must_use]
+pub fn people(markers: &Markers) -> Vec<String> {
+    people::several(markers)
+}
+
 /// Fits a skeleton in metres and model space to markers: to those of `subject`, such as `Anna` for `Anna:LSHO`, if it is
 /// given.
 ///

@@ -54,6 +54,14 @@ pub(super) fn person(markers: &Markers, subject: Option<&str>) -> Result<Person,
     })
 }
 
+/// Returns the names of the people if the markers are those of several: [`person`] needs the name of one of them then.
+pub(super) fn several(markers: &Markers) -> Vec<String> {
+    match person(markers, None) {
+        Err(FitError::People(names)) => names,
+        _ => Vec::new(),
+    }
+}
+
 /// Returns the subjects that are other people than the one with most known labels.
 fn others<'a>(subjects: &[(&'a str, &BTreeSet<&'a str>)]) -> Result<BTreeSet<&'a str>, FitError> {
     let mut own: BTreeSet<&str> = BTreeSet::new();

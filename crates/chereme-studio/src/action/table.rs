@@ -52,6 +52,8 @@ actions! {
         Edit, Corpus, In(Search), "Ctrl+Shift+F" "=" "=";
     SearchView "edit.search-view" "Hits as figures or as a table" | "Résultats en figures ou en tableau"
         Edit, Corpus, In(Search), "Ctrl+Shift+G" "=" "=";
+    FitMarkers "library.fit" "Fit a body to the markers…" | "Ajuster un corps aux marqueurs…"
+        Edit, Corpus, In(Library), changes, "none" "none" "none";
     DeleteListed "library.delete" "Delete from the corpus" | "Supprimer du fonds"
         Edit, Pane(Library), In(Library), changes, "Delete" "=" "=";
     ClearSelection "edit.clear-selection" "Clear the selection" | "Effacer la sélection"

@@ -3,7 +3,7 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
-use chereme_corpus::{Cause, CheckReport, Deleted, Error, Proposed};
+use chereme_corpus::{Cause, CheckReport, Deleted, Error, FitReport, Proposed};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
     Align, Align2, Area, Color32, Context, Frame, Id, Label, Layout, Order, RichText, Role,
@@ -201,6 +201,7 @@ impl Notices {
                 fill(text.of(language), &[("n", steps)])
             }
             Outcome::Proposed(done) => return self.proposed(done, language),
+            Outcome::Fitted(report) => return self.fitted(report, language),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
                 let what = history::sentence(row, language);
@@ -236,6 +237,21 @@ impl Notices {
             _ => self.hint(fill(words::NOTICE_PROPOSED.of(language), &values)),
         }
         for finding in &done.findings {
+            self.say(&spoken(finding, language), None);
+        }
+    }
+
+    /// Reports a body that was fitted to markers, with the corpus's warnings about it.
+    fn fitted(&mut self, report: &FitReport, language: Language) {
+        let markers = match &report.subject {
+            Some(subject) => format!("{} ({subject})", report.markers),
+            None => report.markers.clone(),
+        };
+        let mm = format!("{:.0}", report.median_mm);
+        let values: [(&str, &dyn Display); 3] =
+            [("markers", &markers), ("n", &report.frames), ("mm", &mm)];
+        self.hint(fill(words::NOTICE_FITTED.of(language), &values));
+        for finding in &report.findings {
             self.say(&spoken(finding, language), None);
         }
     }

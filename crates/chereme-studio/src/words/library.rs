@@ -31,6 +31,9 @@ texts! {
     DELETE_WITH_MADE: "Delete them as well", "Les supprimer aussi";
     DELETE_WITH_ANNOTATIONS: "Delete its annotations as well", "Supprimer aussi ses annotations";
     DELETE_KEEPING: "Keep them with their own movement", "Les garder avec leur mouvement";
+    NO_MARKERS: "Choose a recording with markers in the library first.", "Choisissez d’abord dans le fonds un enregistrement avec des marqueurs.";
+    FIT_TITLE: "Whose markers?", "Les marqueurs de qui ?";
+    FIT_PEOPLE: "The markers of {name} are those of several people. The body is fitted to those of one of them:", "Les marqueurs de {name} sont ceux de plusieurs personnes. Le corps est ajusté à ceux de l’une d’elles :";
     IMPORT: "Import…", "Importer…";
     SKELETON: "skeleton", "squelette";
     MARKERS: "markers", "marqueurs";

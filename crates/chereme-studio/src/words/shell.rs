@@ -113,6 +113,8 @@ texts! {
     NOTICE_NOT_PROPOSED: "None of these signs could be read from movement: {unread}. Their recordings have no movement, or the movement cannot be transcribed.", "Aucun de ces signes n’a pu être lu dans le mouvement : {unread}. Leurs enregistrements sont sans mouvement, ou leur mouvement n’a pas pu être transcrit.";
     NOTICE_DETECTED: "Proposals on separate tiers, hatched: {n}. Enter accepts the selected one; the menu Value has the next doubtful one.", "Propositions sur des acteurs à part, hachurées : {n}. Entrée accepte celle qui est sélectionnée ; le menu Valeur mène à la prochaine douteuse.";
     NOTICE_NOT_DETECTED: "The detector found nothing here.", "Le détecteur n’a rien trouvé ici.";
+    TASK_FIT: "Fitting a body to markers", "Ajustement d’un corps aux marqueurs";
+    NOTICE_FITTED: "A body is fitted to {markers}. Frames: {n}; median distance of the markers: {mm} mm", "Un corps est ajusté à {markers}. Images : {n} ; distance médiane des marqueurs : {mm} mm";
     TASK_CHECK: "Checking", "Vérification";
     CHECKED_WELL: "Checked: nothing is wrong.", "Vérifié : tout est en ordre.";
     CHECKED_MENDED: "Checked, and mended: {n}", "Vérifié, et réparé : {n}";

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use chereme_corpus::{
     AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
-    ExportReport, Expressions, ImportReport, MadePart, MergeReport, Moving, Onsets, OperationRow,
-    Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+    ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport, Moving, Onsets,
+    OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
 };
 use eframe::egui::ColorImage;
 
@@ -37,6 +37,10 @@ pub(crate) enum Outcome {
     },
     /// Recordings and signs were deleted, or examined for that.
     Deleted(Deleted),
+    /// The people to whom the markers of a recording belong; none if it is one person.
+    People(Vec<String>),
+    /// A body was fitted to markers.
+    Fitted(Box<FitReport>),
     /// The corpus was checked.
     Checked(CheckReport),
     /// Values of a component were proposed from movement.

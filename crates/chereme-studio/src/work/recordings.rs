@@ -1,12 +1,13 @@
 //! Jobs that describe, show and delete recordings, their signers and their signs.
 
 use chereme_corpus::{
-    Address, DeleteOptions, Details, MediaChange, Name, RecordingChange, SignChange, SignerChange,
-    TrackChange,
+    Address, DeleteOptions, Details, FitOptions, MediaChange, Name, RecordingChange, SignChange,
+    SignerChange, TrackChange,
 };
 
 use super::{About, Job, Outcome};
 use crate::panes::inspector::Thing;
+use crate::words::shell;
 
 /// Changes a recording.
 pub(crate) fn change_recording(name: Name, change: RecordingChange) -> Job {
@@ -43,6 +44,31 @@ pub(crate) fn delete(what: Vec<Address>, options: DeleteOptions) -> Job {
     Job::new(About::EDIT, move |corpus, progress| {
         let deleted = corpus.delete(&what, options, progress);
         deleted.map(Outcome::Deleted)
+    })
+}
+
+/// Returns the people to whom the markers of a recording belong.
+pub(crate) fn marker_people(recording: Name) -> Job {
+    let about = About {
+        task: shell::TASK_FIT,
+        quiet: false,
+        ..About::ASK
+    };
+    Job::new(about, move |corpus, _| {
+        let people = corpus.marker_people(&recording, None);
+        people.map(Outcome::People)
+    })
+}
+
+/// Fits a body to the markers of a recording, or to those of one person in it.
+pub(crate) fn fit_markers(recording: Name, subject: Option<String>) -> Job {
+    Job::long(shell::TASK_FIT, move |corpus, _| {
+        let options = FitOptions {
+            subject: subject.as_deref(),
+            ..FitOptions::default()
+        };
+        let report = corpus.fit_markers(&recording, &options)?;
+        Ok(Outcome::Fitted(Box::new(report)))
     })
 }
 

@@ -19,6 +19,8 @@ pub(crate) struct LibraryRow {
     /// Its whole span, and whether it has movement or a film.
     pub(crate) whole: Span,
     pub(crate) moves: bool,
+    /// Whether it has a track of markers.
+    pub(crate) has_markers: bool,
 }
 
 /// Returns the recordings whose name or signer contains `filter`, ignoring case and accents.
@@ -51,9 +53,15 @@ pub(crate) fn rows(
             about: parts.into_iter().flatten().collect::<Vec<_>>().join(" · "),
             whole: Span::between(Instant::ZERO, Instant::from_micros(it.row.duration_us)),
             moves: it.shown().is_some() || it.kinds.contains(&TrackKind::Media),
+            has_markers: has_markers(it),
         }
     };
     recordings.iter().filter(fits).map(row).collect()
+}
+
+/// Returns whether a recording has a track of markers.
+pub(crate) fn has_markers(glance: &RecordingGlance) -> bool {
+    glance.kinds.contains(&TrackKind::Markers)
 }
 
 /// Returns the name of a kind of track.

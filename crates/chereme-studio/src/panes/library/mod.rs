@@ -2,6 +2,7 @@
 
 pub(crate) mod data;
 mod delete;
+mod fit;
 mod wall;
 
 use std::collections::BTreeMap;
@@ -26,6 +27,7 @@ use crate::words::{Language, fill, library as words};
 use crate::work::{Ended, WorkId};
 use data::{LibraryRow, Moves, SignRow};
 use delete::Leaving;
+use fit::Fitting;
 
 /// Height of a row, in heights of a button.
 const ROW: f32 = 2.1;
@@ -57,6 +59,7 @@ pub(crate) struct Library {
     chosen: Option<SignRow>,
     notated: Notated,
     leaving: Leaving,
+    fitting: Fitting,
 }
 
 /// The filtered rows, computed again when their inputs change.
@@ -292,6 +295,9 @@ impl Library {
             }
             inspect(ui, seen, Thing::Recording(row.id), out);
             ui.separator();
+            if row.has_markers {
+                self.fit_entry(ui, seen, row, out);
+            }
             let doomed = || delete::recording(row.id, &row.name);
             self.delete_entry(ui, seen, doomed, out);
         });
@@ -427,6 +433,7 @@ impl Pane for Library {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.notated.follow(seen.snapshot.overview.generation);
         self.deletion(ui, seen, out);
+        self.fitting(ui, seen, out);
         self.focused = None;
         let overview = &seen.snapshot.overview;
         if overview.recordings.is_empty() && overview.signs.is_empty() {
@@ -463,6 +470,7 @@ impl Pane for Library {
     fn act(&mut self, action: Action, seen: &PaneInput<'_>, out: &mut Outbox) -> Acted {
         match action {
             Action::DeleteListed => self.delete_chosen(seen, out),
+            Action::FitMarkers => self.fit_chosen(seen, out),
             _ => Acted::No,
         }
     }
@@ -470,5 +478,6 @@ impl Pane for Library {
     fn hear(&mut self, id: WorkId, ended: &Ended) {
         self.notated.hear(id, ended);
         self.hear_deletion(id, ended);
+        self.hear_people(id, ended);
     }
 }
