@@ -3,9 +3,12 @@
 //! [`neighbours`] finds the nearest neighbours by the cosine of sparse features. [`lay_out`] places the things from those
 //! neighbours alone: two eigenvectors of the neighbour graph are the start (Belkin and Niyogi, *Laplacian eigenmaps*, 2003), and
 //! stochastic steps with attraction along edges and repulsion from random others refine it (McInnes, Healy and Melville,
-//! *UMAP*, 2018, section 3.2). The random numbers come from a fixed seed: the same neighbours give the same map.
+//! *UMAP*, 2018, section 3.2). The random numbers come from a fixed seed: the same neighbours give the same map. Only which things
+//! are near has a meaning on such a map, not how far groups lie apart: so the positions are moved half of the distance to an even
+//! use of the square, and groups have room inside and a gap between them.
 
 use std::cmp::Ordering;
+use std::f32::consts::PI;
 
 /// The features of a thing: indices of features with weights above 0, each index once.
 pub type Features = Vec<(u32, f32)>;
@@ -23,6 +26,11 @@ const CURVE: (f32, f32) = (1.577, 0.895);
 const STEP: f32 = 4.0;
 /// The spread of the initial positions.
 const SPREAD: f32 = 10.0;
+/// The number of directions in which positions are spread, and the share of the distance to an even use of the square.
+const DIRECTIONS: usize = 48;
+const EVENNESS: f32 = 0.5;
+/// The fraction of the golden ratio: its multiples turn through all directions evenly.
+const GOLDEN: f32 = 0.618_034;
 /// The number of rounds of power iteration for the initial positions.
 const ITERATIONS: usize = 150;
 
@@ -125,7 +133,7 @@ pub fn lay_out(
             }
         }
     }
-    Some(fitted(places))
+    Some(fitted(spread(&fitted(places))))
 }
 
 struct Edge {
@@ -237,6 +245,38 @@ fn repel(places: &mut [[f32; 2]], moved: usize, from: usize, rate: f32) {
 fn between(a: [f32; 2], b: [f32; 2]) -> ([f32; 2], f32) {
     let away = [a[0] - b[0], a[1] - b[1]];
     (away, away[0] * away[0] + away[1] * away[1])
+}
+
+/// Moves positions part of the distance to places that fill the square evenly. Along one direction after another, each
+/// position moves half of the distance to the even place of the same rank: this keeps the order along that direction, so that
+/// near things stay near (sliced optimal transport).
+fn spread(places: &[[f32; 2]]) -> Vec<[f32; 2]> {
+    let count = places.len();
+    // The fractions of multiples of two numbers fill a square evenly.
+    let even: Vec<[f32; 2]> = (0..count)
+        .map(|index| {
+            [0.754_877_666_246_692_7, 0.569_840_290_998_053_2_f64]
+                .map(|by| ((index as f64 + 0.5) * by).fract() as f32)
+        })
+        .collect();
+    let mut moved = places.to_vec();
+    for turn in 0..DIRECTIONS {
+        let angle = PI * (turn as f32 * GOLDEN).fract();
+        let (sine, cosine) = angle.sin_cos();
+        let along = |place: &[f32; 2]| place[0] * cosine + place[1] * sine;
+        let mut goals: Vec<f32> = even.iter().map(along).collect();
+        goals.sort_by(f32::total_cmp);
+        let mut own: Vec<(f32, usize)> = moved.iter().map(along).zip(0..).collect();
+        own.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        for (goal, (is, index)) in goals.into_iter().zip(own) {
+            let step = 0.5 * (goal - is);
+            moved[index][0] += step * cosine;
+            moved[index][1] += step * sine;
+        }
+    }
+    let both = places.iter().zip(moved);
+    both.map(|(from, to)| [0, 1].map(|axis| from[axis] + EVENNESS * (to[axis] - from[axis])))
+        .collect()
 }
 
 /// Scales and moves positions into the square from 0 to 1, without changing their proportions.
@@ -375,6 +415,44 @@ mod tests {
         assert_eq!(neighbours(&grid(3), 4, |_| false), None);
         let near = neighbours(&grid(3), 4, |_| true).expect("not stopped");
         assert_eq!(lay_out(&near, |_| false), None);
+    }
+
+    #[test]
+    fn groups_without_common_neighbours_use_the_whole_map_and_stay_groups() {
+        // Three grids whose features have nothing in common, two large and one small.
+        let mut things: Vec<Features> = Vec::new();
+        for (group, side) in [8, 8, 3].into_iter().enumerate() {
+            let own = grid(side).into_iter().map(|thing| {
+                thing
+                    .into_iter()
+                    .map(|(feature, weight)| (feature + 1000 * group as u32, weight))
+                    .collect()
+            });
+            things.extend(own);
+        }
+        let group = |index: usize| [64, 128].iter().filter(|it| **it <= index).count();
+        let near = neighbours(&things, 8, |_| true).expect("not stopped");
+        let places = lay_out(&near, |_| true).expect("not stopped");
+        let squares: std::collections::BTreeSet<(i32, i32)> = places
+            .iter()
+            .map(|[x, y]| ((x * 8.0) as i32, (y * 8.0) as i32))
+            .collect();
+        assert!(
+            squares.len() >= 35,
+            "{} of 64 squares are used",
+            squares.len()
+        );
+        let alone = (0..places.len()).filter(|&index| {
+            let others = (0..places.len()).filter(|&other| other != index);
+            let apart = |other: usize| between(places[index], places[other]).1;
+            let nearest = others.min_by(|&a, &b| apart(a).total_cmp(&apart(b)));
+            nearest.is_some_and(|other| group(other) != group(index))
+        });
+        assert!(
+            alone.count() <= 5,
+            "nearly all lie next to one of their own group"
+        );
+        assert!(places.iter().flatten().all(|it| (0.0..=1.0).contains(it)));
     }
 
     #[test]
