@@ -120,8 +120,9 @@ struct File {
     liaison: BTreeMap<String, Vec<String>>,
     linked_endings: BTreeMap<String, Vec<String>>,
     never_linked: BTreeSet<String>,
-    loses_nasal: BTreeMap<String, String>,
+    before_vowels: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
+    aspirated_stems: Vec<String>,
     letters: BTreeMap<char, String>,
     spelled: BTreeSet<String>,
     abbreviations: BTreeMap<String, String>,
@@ -147,8 +148,11 @@ pub(super) struct Rules {
     linked_endings: BTreeMap<String, Vec<String>>,
     /// Words with such an ending that are not verbs.
     never_linked: BTreeSet<String>,
-    loses_nasal: BTreeMap<String, String>,
+    /// The pronunciation of adjectives that changes before a vowel, such as *bon* and *premier*.
+    before_vowels: BTreeMap<String, String>,
     aspirated_h: BTreeSet<String>,
+    /// The beginnings of words whose first letter is such an *h*.
+    aspirated_stems: Vec<String>,
     /// The names of letters.
     letters: BTreeMap<char, String>,
     /// Words in capitals that are spelled although they have vowels, such as *EDF*.
@@ -175,8 +179,9 @@ impl Rules {
             liaison: BTreeMap::new(),
             linked_endings: BTreeMap::new(),
             never_linked: BTreeSet::new(),
-            loses_nasal: BTreeMap::new(),
+            before_vowels: BTreeMap::new(),
             aspirated_h: BTreeSet::new(),
+            aspirated_stems: Vec::new(),
             letters: BTreeMap::new(),
             spelled: BTreeSet::new(),
             abbreviations: BTreeMap::new(),
@@ -204,8 +209,9 @@ impl Rules {
         rules.words = file.words;
         rules.linked_endings = file.linked_endings;
         rules.never_linked = file.never_linked;
-        rules.loses_nasal = file.loses_nasal;
+        rules.before_vowels = file.before_vowels;
         rules.aspirated_h = file.aspirated_h;
+        rules.aspirated_stems = file.aspirated_stems;
         rules.letters = file.letters;
         rules.spelled = file.spelled;
         rules.abbreviations = file.abbreviations;
@@ -214,7 +220,9 @@ impl Rules {
 
     fn word(&self, text: String, findings: &mut Vec<CueFinding>) -> Word {
         let split = |phones: &str| phones.split_whitespace().map(str::to_owned).collect();
-        if let Some(phones) = self.words.get(&text) {
+        // *Soeur* and *oeil* are written without a ligature as often as with it.
+        let joined = text.replace("oeu", "œu").replace("oeil", "œil");
+        if let Some(phones) = self.words.get(&text).or_else(|| self.words.get(&joined)) {
             return Word {
                 phones: split(phones),
                 text,
@@ -228,7 +236,7 @@ impl Rules {
                 ..Word::default()
             };
         }
-        let phones = self.spell(&text, findings);
+        let phones = self.spell(&joined, findings);
         Word {
             doubtful: doubtful(&phones),
             phones,
@@ -300,7 +308,12 @@ impl Rules {
             if !options.liaison {
                 return;
             }
-            if let Some(phones) = self.loses_nasal.get(&word.text) {
+            // *Bon ami*, but not *bon et*.
+            let apart = ["et", "ou", "est", "a", "à", "en"].contains(&next.text.as_str());
+            if let Some(phones) = self.before_vowels.get(&word.text) {
+                if apart {
+                    return;
+                }
                 word.phones = phones.split(' ').map(str::to_owned).collect();
             }
             if let Some(sound) = self.linking(word, next) {
@@ -371,6 +384,10 @@ impl Rules {
         if [text, singular]
             .iter()
             .any(|it| self.aspirated_h.contains(*it))
+            || self
+                .aspirated_stems
+                .iter()
+                .any(|stem| text.starts_with(stem.as_str()))
         {
             return false;
         }
