@@ -90,6 +90,7 @@ pub fn phones(text: &str, options: Options) -> Spoken {
                 spoken.words.push(Word { hyphened, ..word });
             }
             Written::Letters(text) => spoken.words.push(rules.spelled(text)),
+            Written::Acronym(text) => spoken.words.push(rules.acronym(text)),
             Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
         }
     }
@@ -125,6 +126,12 @@ struct File {
     aspirated_stems: Vec<String>,
     letters: BTreeMap<char, String>,
     spelled: BTreeSet<String>,
+    acronyms: BTreeMap<String, String>,
+    short_words: BTreeSet<String>,
+    beginnings: BTreeSet<String>,
+    ending_pairs: BTreeSet<String>,
+    units: BTreeMap<String, String>,
+    symbols: BTreeMap<char, String>,
     abbreviations: BTreeMap<String, String>,
     rules: Vec<Vec<String>>,
 }
@@ -157,6 +164,18 @@ pub(super) struct Rules {
     letters: BTreeMap<char, String>,
     /// Words in capitals that are spelled although they have vowels, such as *EDF*.
     pub(super) spelled: BTreeSet<String>,
+    /// Words in capitals whose pronunciation the rules of spelling do not give, such as *ENA*.
+    pub(super) acronyms: BTreeMap<String, String>,
+    /// Words of two letters, which are said as words in capitals, too.
+    pub(super) short_words: BTreeSet<String>,
+    /// The consonants with which a word can begin, if they are several.
+    pub(super) beginnings: BTreeSet<String>,
+    /// The pairs of consonants with which a word can end.
+    pub(super) ending_pairs: BTreeSet<String>,
+    /// Signs and short forms behind a number, and the words that they stand for.
+    pub(super) units: BTreeMap<String, String>,
+    /// Signs that are said as words anywhere.
+    pub(super) symbols: BTreeMap<char, String>,
     /// Short forms and the words that they stand for.
     pub(super) abbreviations: BTreeMap<String, String>,
     /// The rules by their first letter, in the order of the file.
@@ -184,6 +203,12 @@ impl Rules {
             aspirated_stems: Vec::new(),
             letters: BTreeMap::new(),
             spelled: BTreeSet::new(),
+            acronyms: BTreeMap::new(),
+            short_words: BTreeSet::new(),
+            beginnings: BTreeSet::new(),
+            ending_pairs: BTreeSet::new(),
+            units: BTreeMap::new(),
+            symbols: BTreeMap::new(),
             abbreviations: BTreeMap::new(),
             by_letter: BTreeMap::new(),
         }
@@ -214,6 +239,12 @@ impl Rules {
         rules.aspirated_stems = file.aspirated_stems;
         rules.letters = file.letters;
         rules.spelled = file.spelled;
+        rules.acronyms = file.acronyms;
+        rules.short_words = file.short_words;
+        rules.beginnings = file.beginnings;
+        rules.ending_pairs = file.ending_pairs;
+        rules.units = file.units;
+        rules.symbols = file.symbols;
         rules.abbreviations = file.abbreviations;
         rules
     }
@@ -254,6 +285,28 @@ impl Rules {
             text,
             ..Word::default()
         }
+    }
+
+    /// Says a word in capitals that has a pronunciation of its own.
+    fn acronym(&self, text: String) -> Word {
+        let phones = self.acronyms.get(&text).map_or("", String::as_str);
+        Word {
+            phones: phones.split(' ').map(str::to_owned).collect(),
+            text,
+            ..Word::default()
+        }
+    }
+
+    /// Returns whether no word begins or ends with the consonants of this one, so that it must be said letter by
+    /// letter, such as *TVA* and *CDI*.
+    pub(super) fn is_unpronounceable(&self, word: &str) -> bool {
+        let is_consonant = |letter: &char| !self.vowels.contains(*letter);
+        let begins: String = word.chars().take_while(is_consonant).collect();
+        let mut ends: Vec<char> = word.chars().rev().take_while(is_consonant).collect();
+        ends.reverse();
+        let long = begins.chars().count() > 1;
+        let pair = |pair: &[char]| self.ending_pairs.contains(&pair.iter().collect::<String>());
+        (long && !self.beginnings.contains(&begins)) || !ends.windows(2).all(pair)
     }
 
     /// Applies the rules to a word from left to right.
@@ -380,6 +433,12 @@ impl Rules {
 
     fn begins_with_vowel(&self, word: &Word) -> bool {
         let text = word.text.as_str();
+        // The names of *F*, *L*, *M*, *N*, *R*, *S* and *X* begin with a vowel: *un SMS*.
+        if text.starts_with(['f', 'l', 'm', 'n', 'r', 's', 'x'])
+            && word.phones == self.spelled(text.to_owned()).phones
+        {
+            return true;
+        }
         let singular = text.strip_suffix(['s', 'x']).unwrap_or(text);
         if [text, singular]
             .iter()

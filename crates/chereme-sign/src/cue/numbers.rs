@@ -1,6 +1,6 @@
 //! French numbers: digits to words, and the sounds between the words of a number and what follows them.
 
-use super::french::Word;
+use super::french::{RULES, Word};
 
 /// The greatest number that is read.
 const MOST: u64 = 999_999_999_999;
@@ -22,7 +22,7 @@ const TENS: [&str; 7] = [
 /// Reads the number at the start of `rest`; returns its length and its words, or no words if it is not read.
 ///
 /// It reads whole numbers with or without blanks between groups of three digits (*1 200*), decimals (*3,5*), the ordinals
-/// *1er*, *1re*, *2e*, *2ème*, hours (*8h30*, *8 h*) and percentages (*5 %*).
+/// *1er*, *1re*, *2e*, *2ème*, hours (*8h30*, *8 h*) and units (*5 %*, *3,50 €*, *20 °C*).
 pub(super) fn read(rest: &[char]) -> (usize, Option<Vec<String>>) {
     let digits = |from: usize| {
         rest[from.min(rest.len())..]
@@ -59,11 +59,12 @@ pub(super) fn read(rest: &[char]) -> (usize, Option<Vec<String>>) {
             .count()
             .min(decimals - 1);
         words.extend(std::iter::repeat_n("zéro".to_owned(), zeros));
+        length += 1 + decimals;
         match digits[zeros..].iter().collect::<String>().parse() {
             Ok(value) if value <= MOST => words.extend(cardinal(value)),
-            _ => return (length + 1 + decimals, None),
+            _ => return (length, None),
         }
-        return (length + 1 + decimals, Some(words));
+        return with_unit(rest, length, words);
     }
     let suffix: String = rest[length..]
         .iter()
@@ -95,16 +96,35 @@ pub(super) fn read(rest: &[char]) -> (usize, Option<Vec<String>>) {
         _ => {}
     }
     let blank = is_blank(rest.get(length));
-    if next(length + usize::from(blank)) == '%' {
-        words.extend(["pour", "cent"].map(str::to_owned));
-        return (length + usize::from(blank) + 1, Some(words));
-    }
     if blank && next(length + 1) == 'h' && !next(length + 2).is_alphanumeric() && value <= 24 {
         words = feminine(words);
         words.push(if value < 2 { "heure" } else { "heures" }.to_owned());
         return (length + 2, Some(words));
     }
-    (length, Some(words))
+    with_unit(rest, length, words)
+}
+
+/// Adds the words of the unit behind a number that is `length` letters long, such as *%*, *€* and *km*.
+fn with_unit(rest: &[char], length: usize, mut words: Vec<String>) -> (usize, Option<Vec<String>>) {
+    let from = length + usize::from(is_blank(rest.get(length)));
+    let behind = &rest[from.min(rest.len())..];
+    let begins = |unit: &str| {
+        let length = unit.chars().count();
+        let apart = |next: &char| !next.is_alphanumeric() && *next != '\'' && *next != '/';
+        let letters = unit.ends_with(char::is_alphabetic);
+        let ends = !letters || behind.get(length).is_none_or(apart);
+        (unit.chars().eq(behind.iter().copied().take(length)) && ends).then_some(length)
+    };
+    let units = RULES.units.iter();
+    let found = units.filter_map(|(unit, long)| Some((begins(unit)?, long)));
+    let Some((unit, long)) = found.max_by_key(|it| it.0) else {
+        return (length, Some(words));
+    };
+    if ["livres", "secondes", "minutes"].contains(&long.as_str()) {
+        words = feminine(words);
+    }
+    words.extend(long.split(' ').map(str::to_owned));
+    (from + unit, Some(words))
 }
 
 fn is_blank(letter: Option<&char>) -> bool {

@@ -277,6 +277,72 @@ fn capitals_are_spelled_and_short_forms_said_in_full() {
 }
 
 #[test]
+fn capitals_are_spelled_if_they_are_no_word_and_letters_alone_have_their_names() {
+    let usual = french::Options::default();
+    for (text, expected) in [
+        ("la TVA", "l a t e v e a"),
+        ("un CDI", "9~ s e d e i"),
+        ("l'ENA", "l e n a"),
+        ("l'INSEE", "l E~ s e"),
+        ("le CROUS", "l @ k R u s"),
+        ("la FNAC", "l a f n a k"),
+        ("l'UNESCO", "l y n E s k o"),
+        ("l'IA", "l i a"),
+        ("une BD", "y n b e d e"),
+        ("Bd Voltaire", "b u l @ v a R v O l t E R"),
+        ("des ONGs", "d e z o E n Z e"),
+        ("un SMS", "9~ n E s E m E s"),
+        ("le CNRS", "l @ s e E n E R E s"),
+        ("la LfPC", "l a E l E f p e s e"),
+        ("un dvd", "9~ d e v e d e"),
+        ("TU dois", "t y d w a"),
+        ("c'est TRÈS bien", "s E t R E b j E~"),
+        ("LE CHAT DORT", "l @ S a d O R"),
+        ("le plan b", "l @ p l A~ b e"),
+        ("4x4", "k a t R i k s k a t R"),
+        ("l ami", "l a m i"),
+        ("a-t-il", "a t i l"),
+        ("y a-t-il", "i a t i l"),
+    ] {
+        assert_eq!(said(text, usual), expected, "{text}");
+    }
+}
+
+#[test]
+fn signs_are_said_or_reported_and_never_lost() {
+    let usual = french::Options::default();
+    for (short, long) in [
+        ("10 €", "dix euros"),
+        ("3,50 €", "trois virgule cinquante euros"),
+        ("3,5%", "trois virgule cinq pour cent"),
+        ("20 °C", "vingt degrés"),
+        ("-5", "moins cinq"),
+        ("n° 5", "numéro cinq"),
+        ("5 & 6", "cinq et six"),
+        ("50 km/h", "cinquante kilomètres heure"),
+        ("5 m, 10 min", "cinq mètres, dix minutes"),
+        ("1 min", "une minutes"),
+        ("3 l'aiment", "trois l'aiment"),
+        ("et/ou", "et ou"),
+        ("« oui »", "oui"),
+    ] {
+        let spoken = french::phones(short, usual);
+        assert_eq!(said(short, usual), said(long, usual), "{short}");
+        assert_eq!(spoken.findings, [], "{short}");
+    }
+    for (text, sign) in [
+        ("deux + deux", "+"),
+        ("étudiant·e·s", "·e·s"),
+        ("*** fin", "***"),
+        ("a ♥ b", "♥"),
+    ] {
+        let spoken = french::phones(text, usual);
+        let text = sign.to_owned();
+        assert_eq!(spoken.findings, [CueFinding::NotAWord { text }]);
+    }
+}
+
+#[test]
 fn words_that_are_not_french_are_reported() {
     let spoken = french::phones("½ чат", french::Options::default());
     let reported: Vec<String> = spoken.findings.iter().map(ToString::to_string).collect();

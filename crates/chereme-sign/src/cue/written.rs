@@ -10,8 +10,10 @@ pub(super) enum Written {
     Word(String, bool),
     /// A word that is said letter by letter, in lower case.
     Letters(String),
+    /// A word in capitals with a pronunciation of its own, in lower case.
+    Acronym(String),
     Pause,
-    /// A number that is not read.
+    /// A number or a sign that is not read.
     Other(String),
 }
 
@@ -37,8 +39,22 @@ pub(super) fn split(text: &str) -> Vec<Written> {
         } else if let Some((length, word)) = dotted(rest).filter(|_| starts_word(&letters, at)) {
             parts.push(as_written(&word, shouted, false));
             at += length;
+        } else if matches!(letter, 'n' | 'N') && matches!(rest.get(1), Some('°' | 'º')) {
+            parts.push(Written::Word("numéro".to_owned(), false));
+            at += 2;
         } else if letter.is_alphabetic() {
             let word = word(rest, &lower);
+            let enclosed = hyphen && rest.get(1).is_some_and(|it| is_hyphen(*it));
+            if word.chars().count() == 1
+                && !enclosed
+                && !RULES.words.contains_key(&word.to_lowercase())
+                && short(rest, &word, shouted).is_none()
+            {
+                parts.push(single(&word, rest));
+                at += 1;
+                hyphen = letters.get(at).is_some_and(|it| is_hyphen(*it));
+                continue;
+            }
             let short = short(rest, &word, shouted);
             at += word.chars().count() + usize::from(short.is_some_and(|(_, dot)| dot));
             match short {
@@ -57,16 +73,70 @@ pub(super) fn split(text: &str) -> Vec<Written> {
                 letter,
                 ',' | '.' | ';' | ':' | '!' | '?' | '…' | '—' | '(' | ')' | '\n'
             );
-            if ends && !matches!(parts.last(), None | Some(Written::Pause)) {
-                parts.push(Written::Pause);
+            let minus = matches!(letter, '-' | '−')
+                && rest.get(1).is_some_and(char::is_ascii_digit)
+                && (at == 0 || letters[at - 1].is_whitespace());
+            let mut length = 1;
+            if minus {
+                parts.push(Written::Word("moins".to_owned(), false));
+            } else if let Some(words) = RULES.symbols.get(&letter) {
+                parts.extend(
+                    words
+                        .split(' ')
+                        .map(|it| Written::Word(it.to_owned(), false)),
+                );
+            } else if ends {
+                if !matches!(parts.last(), None | Some(Written::Pause)) {
+                    parts.push(Written::Pause);
+                }
+            } else if !is_silent(letter) {
+                // *Étudiant·e·s*: the endings behind a middle dot are no words.
+                let run = rest.iter().skip(1);
+                length += match letter {
+                    '·' => run
+                        .take_while(|it| it.is_alphabetic() || **it == '·')
+                        .count(),
+                    _ => run.take_while(|it| **it == letter).count(),
+                };
+                parts.push(Written::Other(rest[..length].iter().collect()));
             }
-            at += 1;
+            at += length;
             hyphen &= is_hyphen(letter);
             continue;
         }
         hyphen = false;
     }
     parts
+}
+
+/// Returns whether a sign only separates or encloses words.
+fn is_silent(letter: char) -> bool {
+    letter.is_whitespace()
+        || letter.is_control()
+        || is_hyphen(letter)
+        || matches!(
+            letter,
+            '\'' | '"'
+                | '«'
+                | '»'
+                | '“'
+                | '”'
+                | '„'
+                | '‹'
+                | '›'
+                | '‘'
+                | '`'
+                | '´'
+                | '['
+                | ']'
+                | '{'
+                | '}'
+                | '/'
+                | '–'
+                | '\u{ad}'
+                | '\u{200b}'
+                | '\u{feff}'
+        )
 }
 
 fn is_hyphen(letter: char) -> bool {
@@ -122,6 +192,10 @@ fn short(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool
         _ => lower.as_str(),
     };
     let long = RULES.abbreviations.get(key)?;
+    // *BD* in capitals is a comic, not a boulevard.
+    if word.chars().count() > 1 && word.chars().all(char::is_uppercase) && !point && key != "etc" {
+        return None;
+    }
     let usual = if long.ends_with('s') {
         word == lower
     } else {
@@ -131,12 +205,45 @@ fn short(rest: &[char], word: &str, shouted: bool) -> Option<(&'static str, bool
     usual.then_some((long.as_str(), point && !ends))
 }
 
-/// Returns a word as it is said: capitals without a vowel, and some with, letter by letter.
+/// Returns a letter that stands alone: an elided word without its apostrophe, as in *l ami*, else the letter's name.
+fn single(letter: &str, rest: &[char]) -> Written {
+    let next = match rest {
+        [_, ' ', next, ..] => *next,
+        _ => ' ',
+    };
+    let vowel = next == 'h' || RULES.vowels.contains(next.to_ascii_lowercase());
+    let elided = ["c", "d", "j", "l", "m", "n", "s", "t"].contains(&letter);
+    if vowel && elided {
+        return Written::Word(format!("{letter}'"), false);
+    }
+    Written::Letters(letter.to_lowercase())
+}
+
+/// Returns a word as it is said: capitals without a vowel, of two letters, or that nobody can say as a word, letter by
+/// letter.
 fn as_written(word: &str, shouted: bool, hyphen: bool) -> Written {
+    // *Les ONGs* have an ending in small letters.
+    let base = word.strip_suffix('s').unwrap_or(word);
+    let is_capitals = |word: &str| word.chars().count() > 1 && word.chars().all(char::is_uppercase);
+    let word = if is_capitals(base) { base } else { word };
     let lower = word.to_lowercase();
-    let capitals = lower.chars().count() > 1 && word.chars().all(char::is_uppercase);
     let mute = !lower.chars().any(|letter| RULES.vowels.contains(letter));
-    if capitals && (mute || (!shouted && RULES.spelled.contains(&lower))) {
+    if !is_capitals(word) {
+        // *Le dvd* and *LfPC* have no vowel, either; *pfff* and *zzz* repeat a letter.
+        let mut pairs = word.as_bytes().windows(2);
+        let repeats = pairs.any(|pair| pair[0].eq_ignore_ascii_case(&pair[1]));
+        let sound = repeats || lower == "pst" || word.contains('\'');
+        return match mute && !sound && lower.is_ascii() && lower.chars().count() > 1 {
+            true => Written::Letters(lower),
+            false => Written::Word(lower, hyphen),
+        };
+    }
+    let two = lower.chars().count() == 2;
+    let listed = RULES.spelled.contains(&lower) || (two && !RULES.short_words.contains(&lower));
+    if RULES.acronyms.contains_key(&lower) && !shouted {
+        return Written::Acronym(lower);
+    }
+    if mute || (!shouted && listed) || RULES.is_unpronounceable(&lower) {
         return Written::Letters(lower);
     }
     Written::Word(lower, hyphen)
