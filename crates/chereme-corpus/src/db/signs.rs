@@ -502,10 +502,17 @@ pub(crate) fn lexicon_entries(connection: &Connection) -> Result<Vec<TokenRow>> 
     Ok(rows)
 }
 
-/// Returns the citation forms of all signs.
+/// Returns one citation form of each sign. A sign that has one in a lexicon and one with movement is represented by the
+/// one that is coded for more components, else by the one with movement.
 pub(crate) fn citations(connection: &Connection) -> Result<Vec<TokenRow>> {
-    let mut statement =
-        connection.prepare_cached(&format!("{TOKEN} WHERE t.citation = 1 ORDER BY t.id"))?;
+    let mut statement = connection.prepare_cached(&format!(
+        "{TOKEN} WHERE t.citation = 1 AND t.id =
+                (SELECT c.id FROM token c WHERE c.sign_id = t.sign_id AND c.citation = 1
+                 ORDER BY (SELECT count(DISTINCT v.component) FROM token_value v WHERE v.token_id = c.id) DESC,
+                          c.recording_id IS NULL, c.id
+                 LIMIT 1)
+         ORDER BY t.id"
+    ))?;
     let rows = statement
         .query_map([], token_row)?
         .collect::<rusqlite::Result<_>>()?;

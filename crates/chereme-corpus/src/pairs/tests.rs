@@ -253,3 +253,27 @@ fn pairs_of_the_shared_lexicon_equal_an_independent_count() {
     ];
     assert_eq!(top, wanted);
 }
+
+#[test]
+fn a_sign_with_two_citation_forms_is_one_entry_and_no_homonym_of_itself() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // LION, POULE and VACHE have an entry in the lexicon and a recording.
+    let files = crate::unpack_starter(&folder.path().join("files")).expect("unpacked");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    corpus
+        .import(&files, &ImportOptions::default(), progress)
+        .expect("imported");
+    let fields = ["dominant.configuration", "placement", "movement"];
+    let found = asked(&corpus, &fields, Empty::Value);
+    let tokens = crate::db::signs::citations(corpus.store.read()).expect("read");
+    let glosses: BTreeSet<&str> = tokens.iter().map(|it| it.gloss.as_str()).collect();
+    assert!(glosses.contains("LION") && tokens.len() == glosses.len());
+    assert!(found.entries <= glosses.len(), "{found:?}");
+    assert!(found.list.iter().all(|it| it.a != it.b), "{found:?}");
+    assert_eq!(
+        found.entries - found.forms,
+        found.homonym_signs - found.homonym_groups
+    );
+}
