@@ -5,8 +5,8 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use chereme_motion::Instant;
-use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Response, Ui, ViewportCommand};
-use egui_tiles::{Behavior, SimplificationOptions, Tile, TileId, Tiles, Tree, UiResponse};
+use eframe::egui::{self, CentralPanel, Context, Frame, Panel, Ui, ViewportCommand};
+use egui_tiles::Tree;
 
 use crate::Options;
 use crate::action::Action;
@@ -30,6 +30,7 @@ use crate::words::Text;
 use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, movement};
+use crate::workbench::Workbench;
 use crate::{clipboard, layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
@@ -451,10 +452,14 @@ impl Studio {
                 out,
                 pane,
                 under: None,
+                chosen: None,
             };
             tree.ui(&mut workbench, ui);
             layout::settle(tree);
-            let under = workbench.under;
+            let (under, chosen) = (workbench.under, workbench.chosen);
+            if let Some(tile) = chosen {
+                tree.make_active(|id, _| id == tile);
+            }
             carry::show(ui.ctx(), &seen, out);
             if let Some(pane) = sprung.follow(under, ui.input(|input| input.time)) {
                 layout::bring(tree, pane);
@@ -575,71 +580,5 @@ impl eframe::App for Studio {
     /// that fills the window takes milliseconds of every frame.
     fn clear_color(&self, visuals: &egui::Visuals) -> [f32; 4] {
         visuals.panel_fill.to_normalized_gamma_f32()
-    }
-}
-
-/// The panes, as drawn by the tile layout.
-struct Workbench<'a> {
-    panes: &'a mut Panes,
-    seen: PaneInput<'a>,
-    out: &'a mut Outbox,
-    pane: &'a mut Option<PaneKind>,
-    /// The pane whose tab is below the dragged thing.
-    under: Option<PaneKind>,
-}
-
-impl Behavior<PaneKind> for Workbench<'_> {
-    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
-        Frame::new().inner_margin(8).show(ui, |ui| {
-            let rect = ui.available_rect_before_wrap();
-            let pressed = ui.input(|input| {
-                input.pointer.any_pressed()
-                    && input
-                        .pointer
-                        .interact_pos()
-                        .is_some_and(|at| rect.contains(at))
-            });
-            if pressed {
-                *self.pane = Some(*kind);
-            }
-            self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
-            ui.allocate_space(ui.available_size());
-        });
-        UiResponse::None
-    }
-
-    fn tab_title_for_pane(&mut self, kind: &PaneKind) -> egui::WidgetText {
-        self.seen.say(kind.title()).into()
-    }
-
-    fn on_tab_button(
-        &mut self,
-        tiles: &mut Tiles<PaneKind>,
-        tile: TileId,
-        button: Response,
-    ) -> Response {
-        if button.contains_pointer()
-            && carry::is_carrying(&button.ctx)
-            && let Some(Tile::Pane(kind)) = tiles.get(tile)
-        {
-            self.under = Some(*kind);
-            button.ctx.request_repaint();
-        }
-        button
-    }
-
-    fn simplification_options(&self) -> SimplificationOptions {
-        SimplificationOptions {
-            all_panes_must_have_tabs: true,
-            ..SimplificationOptions::default()
-        }
-    }
-
-    fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
-        28.0
-    }
-
-    fn gap_width(&self, _style: &egui::Style) -> f32 {
-        4.0
     }
 }

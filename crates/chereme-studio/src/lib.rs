@@ -58,6 +58,7 @@ mod start;
 mod theme;
 mod words;
 mod work;
+mod workbench;
 
 use std::path::PathBuf;
 

@@ -5,7 +5,7 @@ mod common;
 use chereme_corpus::Corpus;
 use chereme_studio::Options;
 use common::*;
-use eframe::egui::{Key, Modifiers, Role, ViewportCommand, ViewportEvent, ViewportId};
+use eframe::egui::{Key, Modifiers, Rect, Role, ViewportCommand, ViewportEvent, ViewportId};
 use egui_kittest::kittest::Queryable;
 
 #[test]
@@ -61,6 +61,65 @@ fn a_corpus_is_checked_from_the_menu() {
     until(&mut window, "what was found", |window| {
         has(window, "Checked: nothing is wrong.")
     });
+}
+
+/// Returns the place of the lowest widget with that label: a tab, below the menu of the same name.
+fn lowest(window: &Window<'_>, label: &str) -> Rect {
+    let all = window.query_all_by_label(label).map(|it| it.rect());
+    let lowest = all.max_by(|a, b| a.top().total_cmp(&b.top()));
+    lowest.unwrap_or(Rect::NOTHING)
+}
+
+#[test]
+fn every_tab_of_a_narrow_strip_is_reached_and_the_open_one_is_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_starter(folder.path());
+    let wide = [1280.0, 800.0];
+    for (size, pane) in [
+        (wide, "Import"),
+        (wide, "Recombine"),
+        ([1024.0, 700.0], "Cueing"),
+        ([1024.0, 700.0], "Library"),
+    ] {
+        window.set_size(size.into());
+        window.run_steps(4);
+        let edge = lowest(&window, "Stage").left();
+        let menus = window.query_all_by_label("All panes of this strip");
+        let menu = menus.min_by(|a, b| a.rect().left().total_cmp(&b.rect().left()));
+        let menu = menu.expect("a menu");
+        assert!(
+            menu.rect().right() <= edge,
+            "it belongs to the narrow strip"
+        );
+        menu.click();
+        window.run_steps(3);
+        let entries = window.query_all_by_label(pane);
+        let entry = entries.max_by(|a, b| a.rect().top().total_cmp(&b.rect().top()));
+        entry.expect("an entry").click();
+        window.run_steps(10);
+        let tab = lowest(&window, pane);
+        assert!(
+            tab.left() >= -1.0 && tab.right() <= edge,
+            "{pane} at {size:?}: {tab:?}, the stage begins at {edge}"
+        );
+    }
+}
+
+#[test]
+fn the_hint_below_the_map_is_whole_in_a_narrow_pane() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = open_starter(folder.path());
+    window.set_size([1024.0, 700.0].into());
+    click(&mut window, "Map");
+    let there = |window: &Window<'_>| {
+        let mut hints = window.query_all_by_label_contains("The wheel zooms");
+        hints.next().is_some()
+    };
+    until(&mut window, "the map", there);
+    window.run_steps(4);
+    let hint = window.get_by_label_contains("The wheel zooms").rect();
+    let below = lowest(&window, "Timeline").top();
+    assert!(hint.bottom() <= below, "{hint:?} ends above {below}");
 }
 
 #[test]

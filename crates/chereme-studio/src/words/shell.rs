@@ -51,6 +51,7 @@ texts! {
     READ_ONLY: "read only", "lecture seule";
     READ_ONLY_OPENED: "This corpus can be looked at, searched and exported from, but not changed: its file or folder is write-protected.", "Ce corpus peut être vu, interrogé et exporté, mais pas modifié : son fichier ou son dossier ne peut pas être écrit.";
     READ_ONLY_WHY: "The corpus may only be read here: its file or folder is write-protected. A copy of it elsewhere can be changed.", "Le corpus ne peut être que lu ici : son fichier ou son dossier ne peut pas être écrit. Une copie ailleurs peut être modifiée.";
+    ALL_TABS: "All panes of this strip", "Tous les panneaux de cette barre";
     ANNOTATING: "Annotating", "Annoter";
     SEARCHING: "Searching", "Rechercher";
     RECOMBINING: "Recombining", "Recombiner";

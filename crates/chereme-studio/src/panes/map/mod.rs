@@ -64,6 +64,8 @@ pub(crate) struct Map {
     notated: Notated,
     /// Computed maps by their components, each with its corpus generation.
     kept: BTreeMap<[bool; 4], (i64, Arc<SignMap>)>,
+    /// The height of the lines below the plane in the frame before; narrow panes need several.
+    foot_height: Option<f32>,
 }
 
 impl Default for Map {
@@ -81,6 +83,7 @@ impl Default for Map {
             moving: (0, BTreeMap::new()),
             notated: Notated::default(),
             kept: BTreeMap::new(),
+            foot_height: None,
         }
     }
 }
@@ -131,7 +134,8 @@ impl Map {
     }
 
     fn plane(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, map: &SignMap, out: &mut Outbox) {
-        let foot = ui.spacing().interact_size.y * 1.6;
+        let usual = ui.spacing().interact_size.y * 1.6;
+        let foot = self.foot_height.unwrap_or(usual) + ui.spacing().item_spacing.y;
         let size = vec2(
             ui.available_width(),
             (ui.available_height() - foot).max(120.0),
@@ -414,7 +418,13 @@ impl Pane for Map {
             return;
         };
         self.plane(ui, seen, &map, out);
-        self.foot(ui, seen, &map, out);
+        let top = ui.cursor().top();
+        let foot = ui.scope(|ui| self.foot(ui, seen, &map, out));
+        let height = foot.response.rect.bottom() - top;
+        if self.foot_height.is_none_or(|it| (it - height).abs() > 0.5) {
+            self.foot_height = Some(height);
+            ui.ctx().request_repaint();
+        }
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {

@@ -1,0 +1,185 @@
+//! The panes in the window: their tabs, and what a strip of tabs without room for all of them offers.
+
+use eframe::egui::{
+    Frame, Response, Role, Style, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText,
+};
+use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
+
+use crate::context::{Outbox, PaneInput};
+use crate::panes::carry;
+use crate::panes::{PaneKind, Panes};
+use crate::words::shell as words;
+
+/// The panes, as drawn by the tile layout.
+pub(crate) struct Workbench<'a> {
+    pub(crate) panes: &'a mut Panes,
+    pub(crate) seen: PaneInput<'a>,
+    pub(crate) out: &'a mut Outbox,
+    pub(crate) pane: &'a mut Option<PaneKind>,
+    /// The pane whose tab is below the dragged thing.
+    pub(crate) under: Option<PaneKind>,
+    /// The tab that was chosen in the menu of a strip.
+    pub(crate) chosen: Option<TileId>,
+}
+
+/// The height of a strip of tabs, which is the width of its arrows, too.
+const STRIP: f32 = 28.0;
+/// The number of frames in which a strip is scrolled to its open tab after that changed: its arrows come a frame later.
+const FRAMES: u8 = 3;
+
+/// The state of a strip at the frame before.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Strip {
+    open: Option<TileId>,
+    width: f32,
+    /// The frames that are left in which it is scrolled.
+    frames: u8,
+}
+
+/// Returns the offset of a strip, `room` wide, that has the tab from `left` to `right` in sight and is nearest to
+/// the present one.
+fn offset_for((left, right): (f32, f32), room: f32, offset: f32) -> f32 {
+    offset.max(right - room).min(left)
+}
+
+impl Behavior<PaneKind> for Workbench<'_> {
+    fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
+        Frame::new().inner_margin(8).show(ui, |ui| {
+            let rect = ui.available_rect_before_wrap();
+            let pressed = ui.input(|input| {
+                input.pointer.any_pressed()
+                    && input
+                        .pointer
+                        .interact_pos()
+                        .is_some_and(|at| rect.contains(at))
+            });
+            if pressed {
+                *self.pane = Some(*kind);
+            }
+            self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
+            ui.allocate_space(ui.available_size());
+        });
+        UiResponse::None
+    }
+
+    fn tab_title_for_pane(&mut self, kind: &PaneKind) -> WidgetText {
+        self.seen.say(kind.title()).into()
+    }
+
+    /// Shows the menu of all tabs if the strip has no room for them, and scrolls to the open tab once it changed.
+    fn top_bar_right_ui(
+        &mut self,
+        tiles: &Tiles<PaneKind>,
+        ui: &mut Ui,
+        tile: TileId,
+        tabs: &Tabs,
+        offset: &mut f32,
+    ) {
+        let font = TextStyle::Button.resolve(ui.style());
+        let margin = self.tab_title_spacing(ui.visuals());
+        let mut end = 0.0;
+        let mut titles: Vec<(TileId, WidgetText, (f32, f32))> = Vec::new();
+        for child in tabs.children.iter().filter(|it| tiles.is_visible(**it)) {
+            let title = self.tab_title_for_tile(tiles, *child);
+            let extend = Some(TextWrapMode::Extend);
+            let galley = title
+                .clone()
+                .into_galley(ui, extend, f32::INFINITY, font.clone());
+            let begin = end;
+            end += galley.size().x + 2.0 * margin;
+            titles.push((*child, title, (begin, end)));
+        }
+        let width = ui.available_width();
+        if end <= width {
+            return;
+        }
+        let menu = ui.menu_button("…", |ui| {
+            for (child, title, _) in &titles {
+                let open = tabs.is_active(*child);
+                if ui.selectable_label(open, title.clone()).clicked() {
+                    self.chosen = Some(*child);
+                    ui.close();
+                }
+            }
+        });
+        let name = self.seen.say(words::ALL_TABS);
+        let menu = menu.response.on_hover_text(name);
+        menu.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+
+        let id = ui.scope_id().with(("strip", tile));
+        let open = tabs.active;
+        let before: Strip = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+        let same = before.open == open && (before.width - width).abs() < 0.5;
+        let frames = if same { before.frames } else { FRAMES };
+        if frames > 0
+            && let Some((_, _, tab)) = titles.iter().find(|it| Some(it.0) == open)
+        {
+            let arrows = 2.0 * (STRIP + ui.spacing().item_spacing.x);
+            *offset = offset_for(*tab, ui.available_width() - arrows, *offset);
+            ui.ctx().request_repaint();
+        }
+        let frames = frames.saturating_sub(1);
+        ui.data_mut(|data| {
+            data.insert_temp(
+                id,
+                Strip {
+                    open,
+                    width,
+                    frames,
+                },
+            );
+        });
+    }
+
+    fn on_tab_button(
+        &mut self,
+        tiles: &mut Tiles<PaneKind>,
+        tile: TileId,
+        button: Response,
+    ) -> Response {
+        if button.contains_pointer()
+            && carry::is_carrying(&button.ctx)
+            && let Some(Tile::Pane(kind)) = tiles.get(tile)
+        {
+            self.under = Some(*kind);
+            button.ctx.request_repaint();
+        }
+        button
+    }
+
+    fn simplification_options(&self) -> SimplificationOptions {
+        SimplificationOptions {
+            all_panes_must_have_tabs: true,
+            ..SimplificationOptions::default()
+        }
+    }
+
+    fn tab_bar_height(&self, _style: &Style) -> f32 {
+        STRIP
+    }
+
+    fn gap_width(&self, _style: &Style) -> f32 {
+        4.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::offset_for;
+
+    #[test]
+    fn a_strip_scrolls_just_as_far_as_the_open_tab_needs() {
+        for (tab, offset, wanted) in [
+            ((0.0, 60.0), 0.0, 0.0),
+            ((220.0, 310.0), 0.0, 110.0),
+            ((370.0, 430.0), 110.0, 230.0),
+            ((60.0, 120.0), 110.0, 60.0),
+            ((120.0, 200.0), 110.0, 110.0),
+            // A tab wider than its strip shows its beginning.
+            ((100.0, 400.0), 0.0, 100.0),
+        ] {
+            let found: f32 = offset_for(tab, 200.0, offset);
+            assert!((found - wanted).abs() < 1e-3, "{tab:?} {offset}: {found}");
+        }
+    }
+}
