@@ -74,6 +74,12 @@ impl Spoken {
     }
 }
 
+/// The words that stand between a subject and its verb.
+const PRONOUNS: [&str; 18] = [
+    "ne", "n'", "se", "s'", "me", "m'", "te", "t'", "le", "la", "les", "l'", "lui", "leur", "y",
+    "en", "nous", "vous",
+];
+
 /// Returns the pronunciation of French `text`.
 #[must_use]
 pub fn phones(text: &str, options: Options) -> Spoken {
@@ -94,6 +100,7 @@ pub fn phones(text: &str, options: Options) -> Spoken {
             Written::Other(text) => spoken.findings.push(CueFinding::NotAWord { text }),
         }
     }
+    rules.follow_subjects(&mut spoken.words);
     for at in 1..spoken.words.len() {
         let (before, after) = spoken.words.split_at_mut(at);
         let (earlier, word) = before.split_at_mut(at - 1);
@@ -350,6 +357,41 @@ impl Rules {
             "o".clone_into(last);
         }
         phones
+    }
+
+    /// Says words as verbs that also are nouns or adjectives, if their subject stands before them: *ils content*, *nous
+    /// portions*.
+    fn follow_subjects(&self, words: &mut [Word]) {
+        for at in 1..words.len() {
+            let (before, word) = words.split_at_mut(at);
+            let word = &mut word[0];
+            let near = before.iter().rev();
+            let mut near = near.take_while(|it| {
+                let text = it.text.as_str();
+                PRONOUNS.contains(&text) || ["ils", "elles"].contains(&text)
+            });
+            let mut is_subject =
+                |names: &[&str]| near.any(|it| !it.hyphened && names.contains(&it.text.as_str()));
+            let ends = |phones: &[&str]| {
+                word.phones
+                    .ends_with(&phones.iter().map(|it| (*it).to_owned()).collect::<Vec<_>>())
+            };
+            if let Some(stem) = word.text.strip_suffix("nt")
+                && stem.ends_with('e')
+                && !stem.ends_with("me")
+                && ends(&["A~"])
+                && is_subject(&["ils", "elles"])
+            {
+                word.phones = self.spell(stem, &mut Vec::new());
+                word.doubtful = doubtful(&word.phones);
+            } else if word.text.ends_with("tions")
+                && ends(&["s", "j", "O~"])
+                && is_subject(&["nous"])
+            {
+                let at = word.phones.len() - 3;
+                "t".clone_into(&mut word.phones[at]);
+            }
+        }
     }
 
     /// Adds to a word the sound that the next word requires: a linking consonant, or a schwa.
