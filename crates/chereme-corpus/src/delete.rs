@@ -150,10 +150,9 @@ impl Plan {
                 Address::Sign(name) => {
                     plan.signs.insert(sign(connection, name)?);
                 }
-                Address::Gloss(name) => match bare(connection, name)? {
-                    Bare::Recording(id) => drop(plan.recordings.insert(id)),
-                    Bare::Sign(id) => drop(plan.signs.insert(id)),
-                },
+                Address::Gloss(name) => {
+                    plan.recordings.insert(bare_recording(connection, name)?);
+                }
                 other => return Err(not_here(other)),
             }
         }
@@ -374,18 +373,16 @@ fn sign(connection: &Connection, name: &Name) -> Result<i64> {
     }
 }
 
-/// The object of a bare name.
-enum Bare {
-    Recording(i64),
-    Sign(i64),
-}
-
-/// Returns the sign or the recording with a bare name, if only one of the two has it.
-fn bare(connection: &Connection, name: &str) -> Result<Bare> {
+/// Returns the recording with a bare name. A sign must be named as one: it takes all its tokens with it.
+fn bare_recording(connection: &Connection, name: &str) -> Result<i64> {
     let recording = recordings::recording_named(connection, name)?;
     match (address::sign(connection, name), recording) {
-        (Ok(id), None) => Ok(Bare::Sign(id)),
-        (Err(_), Some(recording)) => Ok(Bare::Recording(recording.id)),
+        (Err(_), Some(recording)) => Ok(recording.id),
+        (Ok(_), None) => Err(
+            Error::wrong(format!("{name:?} is a sign with all its tokens"))
+                .at(name)
+                .advise(format!("write sign:{name:?} to delete them all")),
+        ),
         (Ok(_), Some(_)) => {
             let text = format!("{name:?} is both a sign and a recording");
             Err(Error::wrong(text)

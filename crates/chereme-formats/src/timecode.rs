@@ -31,7 +31,7 @@ pub(crate) fn parse(text: &str) -> Option<Timecode> {
     })
 }
 
-/// What the timecodes of a file show together.
+/// The rate and the times that the timecodes of a file show together.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Times {
     /// The seconds of the day; after midnight they go on beyond 24 hours.

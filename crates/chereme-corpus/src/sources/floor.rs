@@ -9,8 +9,8 @@ use sha2::{Digest, Sha256};
 use crate::db::motion;
 use crate::error::{Error, Result};
 
-/// The distance in metres between the feet and the floor up to which a body is left where it is. Signs that follow one
-/// another keep their heights up to the same difference.
+/// The largest distance in metres between feet and floor that a body keeps. Signs that follow one another keep their
+/// heights up to the same difference.
 const STANDS: f64 = 0.6;
 
 /// Returns the height in metres of a body's lowest foot above the floor in its first frame; `None` if the body has no
@@ -160,7 +160,7 @@ mod tests {
                 }
             }
         }
-        // A body a little above the floor is left where it is.
+        // A body a little above the floor keeps its height.
         for ((lowest, _), (usual, _)) in made(&[20.0], None).iter().zip(&stands) {
             assert!((lowest - usual - 0.2).abs() < 1e-6, "{lowest} {usual}");
         }

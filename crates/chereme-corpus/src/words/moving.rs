@@ -640,6 +640,14 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "écrivez recording:3, ou le nom d’un enregistrement",
     ),
     (
+        "{name} is a sign with all its tokens",
+        "{name} est un signe avec toutes ses occurrences",
+    ),
+    (
+        "write sign:{name} to delete them all",
+        "écrivez sign:{name} pour les supprimer toutes",
+    ),
+    (
         "{name} is both a sign and a recording",
         "{name} est à la fois un signe et un enregistrement",
     ),

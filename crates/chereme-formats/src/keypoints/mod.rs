@@ -346,7 +346,7 @@ impl Film {
                 .iter()
                 .position(|it| it.number() == Some(number));
             let known = match known {
-                // A number that occurs twice in a frame is none.
+                // A number that occurs twice in a frame identifies nobody.
                 Some(known) if !free.contains(&known) => {
                     bodies.push(points);
                     continue;

@@ -272,7 +272,7 @@ pub(crate) fn decode<'b>(
     }
 }
 
-/// Returns whether a cell of a column of numbers is a gap: empty, or as programs write a number that is none.
+/// Returns whether a cell of a column of numbers is a gap: empty, or what programs write for a missing number.
 pub(crate) fn is_gap(cell: &str) -> bool {
     const WORDS: [&str; 10] = [
         "nan",
