@@ -13,9 +13,9 @@ use super::{Goals, NotationError, Settings, animate, frames, lay, nonmanual, sta
 use crate::outcome::About;
 use crate::sources::Material;
 
-/// Seconds around the first posture that are computed with it, as sudden changes are spread over the time
-/// around them.
-const AROUND: f64 = 0.15;
+/// Seconds before and after the first posture that are computed with it: the arm takes from several solutions the one that
+/// changes least in the movement that follows, and sudden changes are spread over the time around them.
+const AROUND: [f64;
 
 /// A body that performs many signs, one at a time.
 pub struct Performer {
@@ -81,8 +81,8 @@ impl Performer {
         let total = frames(plan.end, rate)?;
         let reached = plan.signs.first().map_or(0.0, |sign| sign.from);
         let frame = ((reached * rate + 1e-6) as usize).min(total - 1);
-        let near = (AROUND * rate).ceil() as usize;
-        let span = frame.saturating_sub(near)..(frame + near + 1).min(total);
+        let [before, after] = AROUND.map(|seconds| (seconds * rate).ceil() as usize);
+        let span = frame.saturating_sub(before)..(frame + after + 1).min(total);
         let timing = track::Timing {
             paces: &self.paces,
             rate,
