@@ -7,7 +7,7 @@ use chereme_analysis::transcribe::{
 };
 use chereme_motion::{HandCorrection, Side, Span};
 use chereme_sign::Remedy;
-use chereme_sign::hamnosys::{Notated, Sign, print, to_names};
+use chereme_sign::hamnosys::{Nonmanual, Notated, Sign, print, to_names};
 use serde::Serialize;
 
 use crate::Corpus;
@@ -45,6 +45,9 @@ pub struct Transcribed {
     pub symbols: Vec<&'static str>,
     /// The notation's tree.
     pub sign: Sign,
+    /// The acts of trunk, head and shoulders, if the program read them by animating the notation.
+    #[serde(skip_serializing_if = "Nonmanual::is_empty")]
+    pub nonmanual: Nonmanual,
     /// The posture at the beginning and the actions after it, each with its time.
     pub stages: Vec<TranscribedStage>,
     /// The features found, in the order of the notation.
@@ -202,6 +205,7 @@ impl Corpus {
                 .map(|feature| placed(feature, &at))
                 .collect::<Result<_>>()?,
             sign: written.sign,
+            nonmanual: written.nonmanual,
             assumed,
             findings,
         })
@@ -239,6 +243,7 @@ impl Corpus {
             gloss: written.gloss.clone(),
             text: Some(written.hamnosys.clone()),
             sign: written.sign.clone(),
+            nonmanual: written.nonmanual.clone(),
             ..Notated::default()
         };
         let document = serde_json::to_string(&document)

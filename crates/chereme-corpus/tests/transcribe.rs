@@ -6,7 +6,7 @@ use chereme_corpus::{
     Address, Corpus, Error, ImportOptions, PictureOptions, Progress, Staging, Transcribed,
     starter_files, unheard,
 };
-use chereme_sign::hamnosys::{Place, Sign, from_names, parse};
+use chereme_sign::hamnosys::{BodyLocation, Nonmanual, Place, Sign, from_names, parse};
 
 #[test]
 fn a_transcription_is_stored_and_undone() {
@@ -189,6 +189,63 @@ fn initial_postures_are_transcribed_as_written() {
         assert_eq!(transcribed.hands, written.hands, "{names}");
         assert_eq!(transcribed.posture.place, written.posture.place, "{names}");
         assert_eq!(transcribed.actions, written.actions, "{names}");
+    }
+}
+
+/// Acts of trunk, head and shoulders in SiGML, with the names of those that are read.
+const LEANING: [(&str, &[&str]); 4] = [
+    (
+        r#"<body_tier><body_movement movement="TF"/></body_tier>
+<shoulder_tier><shoulder_movement movement="UR"/></shoulder_tier>
+<head_tier><head_movement movement="SR"/></head_tier>"#,
+        &["shoulders.UR", "body.TF", "head.SR"],
+    ),
+    (
+        r#"<body_tier><body_movement movement="ST"/></body_tier><head_tier><head_movement movement="NB"/></head_tier>"#,
+        &["body.ST", "head.NB"],
+    ),
+    (
+        r#"<body_tier><body_movement movement="RL"/></body_tier><facialexpr_tier><eye_brows movement="RB"/></facialexpr_tier>"#,
+        &["body.RL"],
+    ),
+    ("", &[]),
+];
+
+#[test]
+fn acts_of_trunk_head_and_shoulders_are_read_and_stored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    let file = folder.path().join("s.sigml");
+    for (n, (tiers, acts)) in LEANING.into_iter().enumerate() {
+        let sigml = format!(
+            r#"<sigml><hamgestural_sign gloss="S"><sign_nonmanual>{tiers}</sign_nonmanual><sign_manual>
+<handconfig handshape="finger2"/><handconfig extfidir="ul" palmor="l"/>
+<location_bodyarm location="chin" contact="close"/><directedmotion direction="o"/>
+</sign_manual></hamgestural_sign></sigml>"#
+        );
+        std::fs::write(&file, sigml).expect("written");
+        let gloss = format!("S{n}");
+        let path = file.to_str().expect("a path");
+        let made = corpus.animate(&[path], &Staging::default(), Some(&gloss));
+        made.expect("made");
+        let address = gloss.parse().expect("an address");
+        let mut unheard = unheard;
+        let mut progress = Progress::new(&mut unheard);
+        let transcribed = corpus.store_transcription(&address, true, &mut progress);
+        let transcribed = transcribed.expect("stored");
+        let names =
+            |sign: &Nonmanual| -> Vec<String> { sign.acts().map(|it| it.1.name()).collect() };
+        assert_eq!(names(&transcribed.nonmanual), acts, "{tiers}");
+        let Some(Place::Body(place)) = &transcribed.sign.parts[0].posture.place else {
+            panic!("{tiers}: {:?}", transcribed.symbols);
+        };
+        assert_eq!(
+            place.site.map(|it| it.at),
+            Some(BodyLocation::Chin),
+            "{tiers}"
+        );
+        let stored = corpus.notation(&address).expect("a notation").document;
+        assert_eq!(names(&stored.nonmanual), acts, "{tiers}");
     }
 }
 

@@ -257,11 +257,11 @@ pub(crate) fn seen<T: Sync, R: Send>(all: &[T], does: impl Fn(&T) -> R + Sync) -
 struct Performed(Performer);
 
 impl Performs for Performed {
-    fn begins(&self, sign: &Sign) -> Option<Clip> {
+    fn begins(&self, sign: &Notated) -> Option<Clip> {
         self.0.begins(sign).ok()
     }
 
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
+    fn performs(&self, sign: &Notated) -> Option<Clip> {
         self.0.performs(sign).ok()
     }
 }

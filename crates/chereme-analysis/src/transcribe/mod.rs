@@ -44,7 +44,7 @@ mod table_tests;
 pub(crate) mod tests;
 
 use chereme_motion::{Anatomy, Clip, HandCorrection, Side};
-use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Sign};
+use chereme_sign::hamnosys::{BodyLanguage, BodyPlace, Nonmanual, Notated, Sign};
 use serde::Serialize;
 
 pub use resynthesis::MOST_TRIALS;
@@ -132,6 +132,9 @@ pub struct Transcription {
     /// The frames of the sign itself, without the paths from and to rest: its first, and the one after its
     /// last.
     pub frames: (usize, usize),
+    /// The acts of trunk, head and shoulders. Only re-synthesis reads them.
+    #[serde(skip_serializing_if = "Nonmanual::is_empty")]
+    pub nonmanual: Nonmanual,
     /// Warnings: features that could not be read, with the reasons.
     pub findings: Vec<String>,
 }
@@ -284,19 +287,19 @@ pub fn transcribe(
 pub trait Performs {
     /// Returns the body at the moment when it reaches the first posture of a sign, as a clip of one frame;
     /// `None` if that cannot be synthesised.
-    fn begins(&self, sign: &Sign) -> Option<Clip>;
+    fn begins(&self, sign: &Notated) -> Option<Clip>;
 
     /// Like [`begins`](Self::begins), for many signs; implementations may work on several at once.
-    fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+    fn begin_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
         signs.iter().map(|sign| self.begins(sign)).collect()
     }
 
     /// Returns the movement of a sign without the paths from and to rest; `None` if that cannot be
     /// synthesised.
-    fn performs(&self, sign: &Sign) -> Option<Clip>;
+    fn performs(&self, sign: &Notated) -> Option<Clip>;
 
     /// Like [`performs`](Self::performs), for many signs; implementations may work on several at once.
-    fn perform_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+    fn perform_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
         signs.iter().map(|sign| self.performs(sign)).collect()
     }
 }
@@ -307,6 +310,8 @@ pub trait Performs {
 /// Right notation, animated again, moves the hands exactly as observed. If the first reading does not, similar movements
 /// are animated, and properties are replaced one after the other while the hands come nearer. A movement that comes much
 /// nearer replaces the first one with its features, and a finding names both.
+///
+/// Acts of trunk, head and shoulders move the hands and their places. So they are read first, by the joints that they turn.
 ///
 /// The animator pushes a hand out of the trunk that should touch it, keeps it clear of the other hand, stops it at
 /// its joint limits, and lets it give way to its arm within the room of its place. Such a hand is not at its notated

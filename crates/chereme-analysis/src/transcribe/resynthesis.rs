@@ -10,6 +10,7 @@
 mod actions;
 mod homing;
 mod movement;
+mod nonmanual;
 mod regrouped;
 pub(super) mod replaced;
 mod reshaped;
@@ -21,7 +22,7 @@ mod unrolled;
 use std::cell::Cell;
 
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::{Each, Motion, Sign};
+use chereme_sign::hamnosys::{Each, Motion, Nonmanual, Notated, Sign};
 use glam::DVec3;
 
 use super::aim::Turned;
@@ -58,6 +59,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         performs,
         begun: &begun,
         inferred: first.sign.clone(),
+        nonmanual: Nonmanual::default(),
         stages: &first.stages,
         body,
         postures: Cell::new(0),
@@ -68,6 +70,7 @@ pub(super) fn written<'a>(sight: &'a Sight<'a>, performs: Option<&dyn Performs>)
         picked: None,
         off: [0.0; 2],
     };
+    proof.nonmanual = proof.acts(&best.trial);
     for search in 0..SEARCHES {
         let moved = proof.moved(&best.trial);
         let settled = search > 0 && (moved.is_none() || proof.open(best.off).is_empty());
@@ -234,6 +237,8 @@ struct Proof<'a, 'p> {
     begun: &'p Begun,
     /// The first reading, with the movement that was found.
     inferred: Sign,
+    /// The acts of trunk, head and shoulders that were found.
+    nonmanual: Nonmanual,
     /// The posture and the actions of the first reading, with their frames.
     stages: &'p [Stage],
     body: Body<'a>,
@@ -244,6 +249,20 @@ struct Proof<'a, 'p> {
 }
 
 impl Proof<'_, '_> {
+    /// Returns a sign with the acts of the body.
+    fn notated(&self, sign: Sign) -> Notated {
+        Notated {
+            sign,
+            nonmanual: self.nonmanual.clone(),
+            ..Notated::default()
+        }
+    }
+
+    /// Returns a trial's sign with the acts of the body.
+    fn tried_sign(&self, trial: &Trial) -> Notated {
+        self.notated(trial.sign(&self.inferred))
+    }
+
     fn first_trial(&self) -> Trial {
         Trial {
             stand: self.begun.stand.clone(),
@@ -274,7 +293,7 @@ impl Proof<'_, '_> {
                 off,
             }
         };
-        if self.open(begun.off).is_empty() {
+        if self.beyond(begun.off, tuned().resynthesis.sure).is_empty() {
             return Some(kept(begun.off));
         }
         if let Some(unsaid) = self.unsaid(&first) {
@@ -325,7 +344,9 @@ impl Proof<'_, '_> {
         let numbers = &tuned().resynthesis;
         let matches = self.beyond(other.off, numbers.almost).is_empty();
         let posed = self.beyond(other.posed, numbers.exact).is_empty();
-        other.total < first.total - numbers.rather
+        let surely = self.beyond(other.off, numbers.sure).is_empty();
+        let rather = if surely { 0.0 } else { numbers.rather };
+        other.total < first.total - rather
             && (matches || posed || other.error < numbers.less * first.error)
     }
 
@@ -428,7 +449,7 @@ impl Proof<'_, '_> {
             left > 0
         });
         let trials: Vec<_> = trials.collect();
-        let signs = trials.iter().map(|(trial, _)| trial.sign(&self.inferred));
+        let signs = trials.iter().map(|(trial, _)| self.tried_sign(trial));
         let clips = self.performs.begin_all(&signs.collect::<Vec<_>>());
         let begun = trials.into_iter().zip(clips);
         let begun =
@@ -445,6 +466,7 @@ impl Proof<'_, '_> {
             Some(picked) => tree::written(self.sight, picked).0,
             None => first,
         };
+        found.nonmanual.clone_from(&self.nonmanual);
         let read = found.sign.clone();
         if actions != inferred {
             let part = &mut found.sign.parts[0];
@@ -455,7 +477,7 @@ impl Proof<'_, '_> {
         }
         // The trial may have left out the actions or written them in other words.
         let performed = |sign: &Sign| {
-            let clip = self.performs.performs(sign)?;
+            let clip = self.performs.performs(&self.notated(sign.clone()))?;
             Some((self.off(&clip)?, self.deviation(&clip)?))
         };
         let Some((off, after)) = performed(&found.sign) else {
@@ -488,7 +510,7 @@ impl Proof<'_, '_> {
 
     /// Synthesises the whole sign of a trial.
     fn finished(&self, begun: &Tried) -> Option<Tried> {
-        let whole = self.performs.performs(&begun.trial.sign(&self.inferred))?;
+        let whole = self.performs.performs(&self.tried_sign(&begun.trial))?;
         let mut whole = self.tried(begun.trial.clone(), &whole, None)?;
         for (n, drift) in whole.drift.iter_mut().enumerate() {
             *drift = whole.aside[n] - (begun.aside[n] - begun.drift[n]);

@@ -13,8 +13,8 @@ use std::ops::RangeInclusive;
 use chereme_motion::{Finger, Part, Side};
 use chereme_sign::hamnosys::{
     Aim, Amount, BodyPlace, Circular, Clock, Compass, Constellation, Contact, Curve, Directed,
-    Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Place,
-    Posture, Repetition, Sign, Size, Symmetry, WristMotion, Zigzag, orientation,
+    Direction, Each, Ellipse, Growth, HandsUsed, Handshape, Manual, Motion, MotionKind, Nonmanual,
+    Place, Posture, Repetition, Sign, Size, Symmetry, WristMotion, Zigzag, orientation,
 };
 use glam::DVec3;
 
@@ -234,6 +234,7 @@ impl<'a> Writer<'a> {
             features: self.features,
             stages: self.stages,
             frames: (first, end),
+            nonmanual: Nonmanual::default(),
             findings: self.findings,
         };
         (transcription, self.begun)

@@ -209,6 +209,7 @@ tuned_numbers! {
         exact: f64,
         nearly: f64,
         almost: f64,
+        sure: f64,
         displaced: f64,
         near: f64,
         posed: f64,

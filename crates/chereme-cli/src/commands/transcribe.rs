@@ -17,15 +17,15 @@ use crate::words::Words;
 ///
 /// If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move
 /// differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far
-/// the hands are from the observed ones with the new value and with the old one, on average. That takes up to a minute;
-/// Ctrl-C stops it.
+/// the hands are from the observed ones with the new value and with the old one, on average. It also reads the acts of
+/// trunk, head and shoulders, such as body.TF or head.SR in the codes of SiGML. That takes up to a minute; Ctrl-C stops it.
 ///
 /// `--json` gives "gloss", "token", "recording", "start_us", "end_us", the whole as "hamnosys" and "symbols" and as the
 /// tree "sign"; "stages", the posture at the beginning and each action with "action", "hand", "start_us", "end_us",
 /// "hamnosys", "symbols"; "features", each with "feature", "hand", "action" (null for the posture), "at_us",
 /// "start_us", "end_us", "value", "hamnosys", "symbols", "residual", "unit" (deg, cm or share) and "runner_up"
-/// ("value", "hamnosys", "symbols", "residual"; null if there is no second reading); "findings". Times are microseconds
-/// from the start of the recording.
+/// ("value", "hamnosys", "symbols", "residual"; null if there is no second reading); "nonmanual", the tiers with acts
+/// that were read; "findings". Times are microseconds from the start of the recording.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -78,6 +78,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             ],
             &rows,
         )?;
+        let acts = written.nonmanual.acts().map(|(_, act)| act.name());
+        let acts: Vec<String> = acts.collect();
+        if !acts.is_empty() {
+            output.line(acts.join(" "))?;
+        }
         for finding in &written.findings {
             output.line(output.spoken(finding))?;
         }
@@ -138,12 +143,12 @@ pub(super) const WORDS: Words = Words {
             "L’écart est la distance du mouvement à sa transcription, et le second choix est la deuxième meilleure lecture. Seule une police HamNoSys montre les caractères ; leurs noms sont écrits en dessous, `--names` n’écrit rien d’autre, et `render TOKEN --to it.svg` dessine une notation enregistrée.",
         ),
         (
-            "If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far the hands are from the observed ones with the new value and with the old one, on average. That takes up to a minute; Ctrl-C stops it.",
-            "Si un signe a été généré d’une notation seule, le programme anime sa transcription pour contrôle. Si les mains bougent autrement, il essaie des mouvements semblables et d’autres postures. Les valeurs qu’il remplace ont deux écarts en cm : la distance moyenne des mains à celles qui ont été observées, avec la nouvelle valeur et avec l’ancienne. Cela prend jusqu’à une minute ; Ctrl-C l’arrête.",
+            "If a sign was generated from notation alone, the program animates its transcription as a check. If its hands move differently, it tries similar movements and other postures. Values that it replaces have two residuals in cm: how far the hands are from the observed ones with the new value and with the old one, on average. It also reads the acts of trunk, head and shoulders, such as body.TF or head.SR in the codes of SiGML. That takes up to a minute; Ctrl-C stops it.",
+            "Si un signe a été généré d’une notation seule, le programme anime sa transcription pour contrôle. Si les mains bougent autrement, il essaie des mouvements semblables et d’autres postures. Les valeurs qu’il remplace ont deux écarts en cm : la distance moyenne des mains à celles qui ont été observées, avec la nouvelle valeur et avec l’ancienne. Il lit aussi les actes du tronc, de la tête et des épaules, comme body.TF ou head.SR dans les codes de SiGML. Cela prend jusqu’à une minute ; Ctrl-C l’arrête.",
         ),
         (
-            "`--json` gives \"gloss\", \"token\", \"recording\", \"start_us\", \"end_us\", the whole as \"hamnosys\" and \"symbols\" and as the tree \"sign\"; \"stages\", the posture at the beginning and each action with \"action\", \"hand\", \"start_us\", \"end_us\", \"hamnosys\", \"symbols\"; \"features\", each with \"feature\", \"hand\", \"action\" (null for the posture), \"at_us\", \"start_us\", \"end_us\", \"value\", \"hamnosys\", \"symbols\", \"residual\", \"unit\" (deg, cm or share) and \"runner_up\" (\"value\", \"hamnosys\", \"symbols\", \"residual\"; null if there is no second reading); \"findings\". Times are microseconds from the start of the recording.",
-            "`--json` donne \"gloss\", \"token\", \"recording\", \"start_us\", \"end_us\", l’ensemble comme \"hamnosys\" et \"symbols\" et comme arbre \"sign\" ; \"stages\", la posture initiale et chaque action avec \"action\", \"hand\", \"start_us\", \"end_us\", \"hamnosys\", \"symbols\" ; \"features\", chacun avec \"feature\", \"hand\", \"action\" (null pour la posture), \"at_us\", \"start_us\", \"end_us\", \"value\", \"hamnosys\", \"symbols\", \"residual\", \"unit\" (deg, cm ou share) et \"runner_up\" (\"value\", \"hamnosys\", \"symbols\", \"residual\" ; null sans deuxième lecture) ; \"findings\". Les temps sont en microsecondes depuis le début de l’enregistrement.",
+            "`--json` gives \"gloss\", \"token\", \"recording\", \"start_us\", \"end_us\", the whole as \"hamnosys\" and \"symbols\" and as the tree \"sign\"; \"stages\", the posture at the beginning and each action with \"action\", \"hand\", \"start_us\", \"end_us\", \"hamnosys\", \"symbols\"; \"features\", each with \"feature\", \"hand\", \"action\" (null for the posture), \"at_us\", \"start_us\", \"end_us\", \"value\", \"hamnosys\", \"symbols\", \"residual\", \"unit\" (deg, cm or share) and \"runner_up\" (\"value\", \"hamnosys\", \"symbols\", \"residual\"; null if there is no second reading); \"nonmanual\", the tiers with acts that were read; \"findings\". Times are microseconds from the start of the recording.",
+            "`--json` donne \"gloss\", \"token\", \"recording\", \"start_us\", \"end_us\", l’ensemble comme \"hamnosys\" et \"symbols\" et comme arbre \"sign\" ; \"stages\", la posture initiale et chaque action avec \"action\", \"hand\", \"start_us\", \"end_us\", \"hamnosys\", \"symbols\" ; \"features\", chacun avec \"feature\", \"hand\", \"action\" (null pour la posture), \"at_us\", \"start_us\", \"end_us\", \"value\", \"hamnosys\", \"symbols\", \"residual\", \"unit\" (deg, cm ou share) et \"runner_up\" (\"value\", \"hamnosys\", \"symbols\", \"residual\" ; null sans deuxième lecture) ; \"nonmanual\", les lignes avec les actes lus ; \"findings\". Les temps sont en microsecondes depuis le début de l’enregistrement.",
         ),
         (
             "(then: export mine.chereme token:41 --to it.sigml)",

@@ -83,7 +83,7 @@ pub(crate) fn curves(
 ) -> Vec<Curve> {
     let mut curves: Vec<Curve> = Vec::new();
     for timed in all(signs, spans, language) {
-        let name = name(timed.act);
+        let name = timed.act.name();
         let n = curves.iter().position(|curve| curve.name == name);
         let n = n.unwrap_or_else(|| {
             curves.push(Curve {
@@ -255,24 +255,6 @@ fn amount(act: &Act) -> f64 {
     act.amount
         .filter(|amount| amount.is_finite())
         .map_or(1.0, |amount| amount.clamp(0.0, 2.0))
-}
-
-fn name(act: &Act) -> String {
-    let part = match act.part {
-        NonmanualPart::Shoulders => "shoulders",
-        NonmanualPart::Body => "body",
-        NonmanualPart::Head => "head",
-        NonmanualPart::Gaze => "gaze",
-        NonmanualPart::Brows => "brows",
-        NonmanualPart::Lids => "lids",
-        NonmanualPart::Nose => "nose",
-        NonmanualPart::MouthGesture => "mouth",
-        NonmanualPart::MouthPicture => "mouthing",
-        NonmanualPart::MouthMeta => "mouth-meta",
-        NonmanualPart::Extra => "extra",
-        NonmanualPart::Neutral => "neutral",
-    };
-    format!("{part}.{}", act.code())
 }
 
 /// Returns the sum of all acts at a time.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use chereme_motion::Clip;
-use chereme_sign::hamnosys::{Notated, Sign};
+use chereme_sign::hamnosys::Notated;
 
 use super::pace::Paces;
 use super::plan::Planner;
@@ -15,7 +15,7 @@ use crate::sources::Material;
 
 /// Seconds before and after the first posture that are computed with it: the arm takes from several solutions the one that
 /// changes least in the movement that follows, and sudden changes are spread over the time around them.
-const AROUND: [f64;
+const AROUND: [f64; 2] = [0.5, 1.0];
 
 /// A body that performs many signs, one at a time.
 pub struct Performer {
@@ -50,8 +50,8 @@ impl Performer {
     ///
     /// # Errors
     /// The same as [`animate`]'s.
-    pub fn performs(&self, sign: &Sign) -> Result<Clip, NotationError> {
-        let made = animate(&[&notated(sign)], &self.stage, &self.settings)?;
+    pub fn performs(&self, sign: &Notated) -> Result<Clip, NotationError> {
+        let made = animate(&[sign], &self.stage, &self.settings)?;
         let clip = made.clip;
         let mut glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
         Ok(match glosses.next() {
@@ -72,12 +72,12 @@ impl Performer {
     ///
     /// # Errors
     /// [`NotationError`] if the movement would be too long.
-    pub fn begins(&self, sign: &Sign) -> Result<Clip, NotationError> {
+    pub fn begins(&self, sign: &Notated) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
         let language = (&self.settings.language, &self.paces);
         let planner = Planner::new(body, language, self.stage.handedness, rate);
         let (limits, sides) = (planner.signer.limits, planner.signer.sides);
-        let plan = planner.signs(&[&notated(sign)]);
+        let plan = planner.signs(&[sign]);
         let total = frames(plan.end, rate)?;
         let reached = plan.signs.first().map_or(0.0, |sign| sign.from);
         let frame = ((reached * rate + 1e-6) as usize).min(total - 1);
@@ -91,8 +91,7 @@ impl Performer {
         let mut channels = standing(body, 1);
         let hands = sides.map(|side| body.hand(side));
         let language = &self.settings.language;
-        let Goals { alive, wanted, .. } =
-            Goals::of(body, &[&notated(sign)], &plan, language, &timing);
+        let Goals { alive, wanted, .. } = Goals::of(body, &[sign], &plan, language, &timing);
         for (n, (hand, wanted)) in hands.into_iter().zip(wanted).enumerate() {
             let Some(hand) = hand else { continue };
             let solver = Arm::of(body, hand, &limits);
@@ -112,13 +111,6 @@ impl Performer {
         nonmanual::turn(body, &alive.bents, &[(frame, 0.0)], &mut channels);
         let (skeleton, rate) = (Arc::clone(&body.skeleton), self.settings.rate);
         Ok(Clip::new(skeleton, rate, channels)?)
-    }
-}
-
-fn notated(sign: &Sign) -> Notated {
-    Notated {
-        sign: sign.clone(),
-        ..Notated::default()
     }
 }
 
@@ -160,9 +152,13 @@ mod tests {
         Performer::new(stage, settings).expect("a body")
     }
 
-    fn sign(names: &str) -> Sign {
+    fn sign(names: &str) -> Notated {
         let text = from_names(names.split(' ')).expect("names of symbols");
-        parse(&text).expect("HamNoSys").sign
+        let sign = parse(&text).expect("HamNoSys").sign;
+        Notated {
+            sign,
+            ..Notated::default()
+        }
     }
 
     #[test]
@@ -195,7 +191,7 @@ mod tests {
             let rate = performer.settings().rate;
             // Signs whose time is not stretched.
             for names in [SIGNS[0], SIGNS[2], SIGNS[3]] {
-                let sign = notated(&sign(names));
+                let sign = sign(names);
                 let made = animate(&[&sign], &performer.stage, performer.settings());
                 let made = made.expect("movement");
                 let gloss = made.notes.iter().find(|note| note.about == About::Gloss);

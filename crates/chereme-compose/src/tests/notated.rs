@@ -467,7 +467,7 @@ fn golden_sentences_life_and_non_manuals() {
     put(&mut out, "## first postures and movement alone");
     let performer = Performer::new(plain, still()).expect("a performer");
     for sign in [&first, &second] {
-        for clip in [performer.begins(&sign.sign), performer.performs(&sign.sign)] {
+        for clip in [performer.begins(sign), performer.performs(sign)] {
             let clip = clip.expect("a clip");
             let model = clip.model_pose(clip.frames() - 1);
             let places: Vec<[f64; 3]> = model

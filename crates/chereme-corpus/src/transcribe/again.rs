@@ -11,7 +11,7 @@ use chereme_compose::notation::{Performer, Settings};
 use chereme_compose::recipe::Node;
 use chereme_compose::{Input, MaterialInput, Recipe};
 use chereme_motion::{Clip, Instant};
-use chereme_sign::hamnosys::{BodyLanguage, Sign};
+use chereme_sign::hamnosys::{BodyLanguage, Notated};
 use rusqlite::Connection;
 use serde::Deserialize;
 
@@ -57,9 +57,9 @@ impl Proving<'_, '_> {
     /// Synthesises signs on all processors, each of them `at_once` between two reports of progress.
     fn on_all_processors(
         &self,
-        signs: &[Sign],
+        signs: &[Notated],
         at_once: usize,
-        synthesises: impl Fn(&Sign) -> Option<Clip> + Sync,
+        synthesises: impl Fn(&Notated) -> Option<Clip> + Sync,
     ) -> Vec<Option<Clip>> {
         let threads = available_parallelism().map_or(1, NonZero::get);
         let (most, synthesises) = (at_once * threads, &synthesises);
@@ -89,22 +89,22 @@ impl Proving<'_, '_> {
 }
 
 impl Performs for Proving<'_, '_> {
-    fn begins(&self, sign: &Sign) -> Option<Clip> {
+    fn begins(&self, sign: &Notated) -> Option<Clip> {
         let goes_on = self.goes_on(1);
         goes_on.then(|| self.body.begins(sign).ok()).flatten()
     }
 
-    fn begin_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+    fn begin_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
         let body = self.body;
         self.on_all_processors(signs, AT_ONCE, |sign| body.begins(sign).ok())
     }
 
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
+    fn performs(&self, sign: &Notated) -> Option<Clip> {
         let goes_on = self.goes_on(0);
         goes_on.then(|| self.body.performs(sign).ok()).flatten()
     }
 
-    fn perform_all(&self, signs: &[Sign]) -> Vec<Option<Clip>> {
+    fn perform_all(&self, signs: &[Notated]) -> Vec<Option<Clip>> {
         let body = self.body;
         self.on_all_processors(signs, 1, |sign| body.performs(sign).ok())
     }

@@ -147,6 +147,26 @@ impl Act {
         }
     }
 
+    /// Returns the name of its curve: the part and the code, such as `head.SR`.
+    #[must_use]
+    pub fn name(&self) -> String {
+        let part = match self.part {
+            NonmanualPart::Shoulders => "shoulders",
+            NonmanualPart::Body => "body",
+            NonmanualPart::Head => "head",
+            NonmanualPart::Gaze => "gaze",
+            NonmanualPart::Brows => "brows",
+            NonmanualPart::Lids => "lids",
+            NonmanualPart::Nose => "nose",
+            NonmanualPart::MouthGesture => "mouth",
+            NonmanualPart::MouthPicture => "mouthing",
+            NonmanualPart::MouthMeta => "mouth-meta",
+            NonmanualPart::Extra => "extra",
+            NonmanualPart::Neutral => "neutral",
+        };
+        format!("{part}.{}", self.code())
+    }
+
     /// Returns whether SiGML lists its code for the part.
     #[must_use]
     pub fn is_listed(&self) -> bool {

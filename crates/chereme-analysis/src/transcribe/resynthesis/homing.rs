@@ -78,7 +78,7 @@ impl Proof<'_, '_> {
         for round in 0..rounds {
             self.finish(search);
             if self
-                .beyond(search.best.off, tuned().resynthesis.exact)
+                .beyond(search.best.off, tuned().resynthesis.sure)
                 .is_empty()
             {
                 return;
@@ -91,9 +91,9 @@ impl Proof<'_, '_> {
         self.finish(search);
     }
 
-    /// Tries many more places with the aim of the nearest trial.
+    /// Tries many more places with the aim of the nearest trial of each form of notation.
     pub(super) fn widen(&self, search: &mut Search) {
-        let nearest = search.beam.iter().take(1).cloned().collect();
+        let nearest = search.nearest(1);
         self.correct(search, nearest, tuned().resynthesis.widely);
         self.finish(search);
     }

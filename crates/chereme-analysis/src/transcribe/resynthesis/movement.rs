@@ -93,7 +93,7 @@ impl Proof<'_, '_> {
             let signs = all.iter().map(|actions| {
                 let mut sign = self.inferred.clone();
                 sign.parts[0].actions.clone_from(actions);
-                at.sign(&sign)
+                self.notated(at.sign(&sign))
             });
             let clips = self.performs.perform_all(&signs.collect::<Vec<_>>());
             let clips = all.iter().zip(clips);

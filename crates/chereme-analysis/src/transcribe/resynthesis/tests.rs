@@ -107,12 +107,12 @@ struct Displaces {
 }
 
 impl Performs for Displaces {
-    fn begins(&self, sign: &Sign) -> Option<Clip> {
-        self.displaced(sign, DVec3::ZERO)
+    fn begins(&self, sign: &Notated) -> Option<Clip> {
+        self.displaced(&sign.sign, DVec3::ZERO)
     }
 
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
-        self.displaced(sign, self.later)
+    fn performs(&self, sign: &Notated) -> Option<Clip> {
+        self.displaced(&sign.sign, self.later)
     }
 }
 
@@ -218,13 +218,13 @@ impl Moves {
 }
 
 impl Performs for Moves {
-    fn begins(&self, _: &Sign) -> Option<Clip> {
+    fn begins(&self, _: &Notated) -> Option<Clip> {
         Some(clip(0.0, |_| [Some(self.held.clone()), None]).0)
     }
 
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
+    fn performs(&self, sign: &Notated) -> Option<Clip> {
         let [small, usual, big] = self.lengths;
-        let action = sign.parts[0].actions.first()?;
+        let action = sign.sign.parts[0].actions.first()?;
         let MotionKind::Directed(path) = &action.kind else {
             return self.begins(sign);
         };
@@ -305,8 +305,8 @@ struct Turns {
 }
 
 impl Performs for Turns {
-    fn begins(&self, sign: &Sign) -> Option<Clip> {
-        let posture = &sign.parts[0].posture;
+    fn begins(&self, sign: &Notated) -> Option<Clip> {
+        let posture = &sign.sign.parts[0].posture;
         let along = aim::vector(posture.extended.dominant()?);
         let palm = orientation::palm(along.to_array(), posture.palm.dominant()?.angle());
         let written = Held {
@@ -317,7 +317,7 @@ impl Performs for Turns {
         Some(clip(0.0, |_| [Some(written.turned(self.by)), None]).0)
     }
 
-    fn performs(&self, sign: &Sign) -> Option<Clip> {
+    fn performs(&self, sign: &Notated) -> Option<Clip> {
         self.begins(sign)
     }
 }

@@ -40,7 +40,7 @@ impl Proof<'_, '_> {
             return own;
         };
         let error = |trial: &Trial| {
-            let clip = self.performs.performs(&trial.sign(&self.inferred))?;
+            let clip = self.performs.performs(&self.tried_sign(trial))?;
             Some(self.beside(&clip, &self.written_for(trial))?.error)
         };
         let (Some(before), Some(other)) = (error(&own.trial), self.verified(turned)) else {
@@ -58,7 +58,7 @@ impl Proof<'_, '_> {
         let mut trial = from.clone();
         let hands = self.written_for(&trial);
         let begins = |trial: &Trial| {
-            let clip = self.performs.begins(&trial.sign(&self.inferred))?;
+            let clip = self.performs.begins(&self.tried_sign(trial))?;
             self.beside(&clip, &hands)
         };
         let mut best = begins(&trial)?;
@@ -69,7 +69,7 @@ impl Proof<'_, '_> {
             let least = best.error;
             for &n in &hands {
                 let others = self.turned_by(&trial, n, best.twists[n]);
-                let signs: Vec<Sign> = others.iter().map(|it| it.sign(&self.inferred)).collect();
+                let signs: Vec<Notated> = others.iter().map(|it| self.tried_sign(it)).collect();
                 let found = others.into_iter().zip(self.performs.begin_all(&signs));
                 let found =
                     found.filter_map(|(other, clip)| Some((self.beside(&clip?, &hands)?, other)));

@@ -1,6 +1,6 @@
 //! Compares the values that notation states about an act with its recorded features.
 
-use chereme_sign::hamnosys::{Motion, Sign, from_names, parse};
+use chereme_sign::hamnosys::{Motion, Nonmanual, Sign, from_names, parse};
 
 use super::movements::{captured, one_hand, places, two_hands};
 use super::*;
@@ -115,6 +115,7 @@ fn features_follow_actions_that_are_replaced() {
         .to_vec(),
         stages: [0, 1, 2].map(stage).to_vec(),
         frames: (0, 21),
+        nonmanual: Nonmanual::default(),
         findings: Vec::new(),
     };
     replace(&mut found, [&from, &to], [0.021, 0.0004], 2.0);
