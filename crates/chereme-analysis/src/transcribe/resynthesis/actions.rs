@@ -115,6 +115,31 @@ pub(super) fn untargeted(motion: &Motion) -> Motion {
     })
 }
 
+/// Returns a motion without the rests before it and within it.
+pub(super) fn unrested(motion: &Motion) -> Motion {
+    changed(motion, |other| {
+        other.manner.rest = false;
+        match &mut other.kind {
+            MotionKind::Target {
+                motion: Some(motion),
+                ..
+            }
+            | MotionKind::Repeated { motion, .. } => **motion = unrested(motion),
+            MotionKind::Split(a, b) => {
+                for motion in [a, b].into_iter().flatten() {
+                    **motion = unrested(motion);
+                }
+            }
+            MotionKind::Sequence { motions, .. } | MotionKind::Parallel(motions) => {
+                for motion in motions {
+                    *motion = unrested(motion);
+                }
+            }
+            _ => {}
+        }
+    })
+}
+
 /// Returns lists in which one motion is replaced by each of its `readings`.
 fn others(all: &[Motion], readings: impl Fn(&Motion) -> Vec<Motion>) -> Vec<Vec<Motion>> {
     let mut found = Vec::new();

@@ -52,8 +52,16 @@ impl Proof<'_, '_> {
                 |best, other| if other.0 < best.0 { other } else { best },
             );
         }
-        let (least, actions) = best;
-        (least < numbers.convincing * first).then_some(actions)
+        let (least, mut actions) = best;
+        if least >= numbers.convincing * first {
+            return None;
+        }
+        // Without an exact match, a rest only makes up for the duration of a misread movement.
+        let unrested = |all: &[Motion]| all.iter().map(actions::unrested).collect::<Vec<_>>();
+        if least >= numbers.exact && unrested(&part.actions) == part.actions {
+            actions = unrested(&actions);
+        }
+        Some(actions).filter(|actions| *actions != part.actions)
     }
 
     /// Replaces one property of actions after the other, as long as the hands come nearer: returns the actions found
