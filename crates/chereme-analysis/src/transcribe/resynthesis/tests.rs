@@ -4,6 +4,7 @@
 use chereme_sign::hamnosys::sites::{Face, HandPoint};
 use chereme_sign::hamnosys::{Aim, BodyLocation, BodyPlace, Constellation, Contact, Digit};
 use chereme_sign::hamnosys::{HandClass, MotionKind, Place, Side, Site, Size, orientation};
+use chereme_sign::hamnosys::{from_names, parse};
 use glam::DQuat;
 
 use super::*;
@@ -388,5 +389,27 @@ fn hands_that_are_moved_apart_are_read_by_the_parts_that_were_to_meet() {
         let [alone, proven] = read(from.clone(), &place, flesh);
         assert_ne!(alone.as_ref(), Some(&place), "it needs no re-synthesis");
         assert_eq!(proven.as_ref(), Some(&place), "{parts:?}");
+    }
+}
+
+#[test]
+fn rests_are_removed_at_any_depth() {
+    for names in [
+        "hammoveu hamrest",
+        "hammoveu hamrest hamrepeatfromstart",
+        "hamparbegin hammoveu hamrest hamplus hamnomotion hamparend hammover hamrest",
+        "hamparbegin hammoveu hamrest hamreplace hamextfingerl hamparend hamrest",
+        "hamseqbegin hammoveu hamrest hammoved hamseqend",
+    ] {
+        let read = |names: &str| -> Vec<Motion> {
+            let posture = "hamsymmlr hamflathand hamextfingero hampalml hamchest";
+            let text = from_names(format!("{posture} {names}").split_whitespace());
+            let sign = parse(&text.expect("names of symbols"))
+                .expect("HamNoSys")
+                .sign;
+            sign.parts[0].actions.clone()
+        };
+        let unrested: Vec<Motion> = read(names).iter().map(super::actions::unrested).collect();
+        assert_eq!(unrested, read(&names.replace("hamrest", "")), "{names}");
     }
 }
