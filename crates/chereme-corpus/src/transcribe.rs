@@ -17,6 +17,7 @@ use crate::db::notations::{self, NotationRow};
 use crate::db::recordings;
 use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, MotionTrack};
+use crate::notation;
 use crate::progress::Progress;
 use again::Again;
 
@@ -211,7 +212,8 @@ impl Corpus {
         })
     }
 
-    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation.
+    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation. Non-manual tiers of
+    /// its notation so far, or of that from which it was generated, are kept unless the transcription has others.
     ///
     /// # Errors
     /// As [`transcribe`](Self::transcribe). Also fails if the address names no token, or if the token has another
@@ -228,8 +230,11 @@ impl Corpus {
                 .at(address.to_string())
                 .advise("write token:41 or a gloss"));
         };
-        let old = notations::of_token(self.store.read(), token)?;
-        let other = old.is_some_and(|old| old.text.as_ref() != Some(&written.hamnosys));
+        let connection = self.store.read();
+        let old = notation::of_token(connection, token)?;
+        let other = old
+            .as_ref()
+            .is_some_and(|old| old.text.as_ref() != Some(&written.hamnosys));
         if other && !force {
             return Err(
                 Error::wrong(format!("{address} has another notation already"))
@@ -239,11 +244,17 @@ impl Corpus {
                     )),
             );
         }
+        let old = match old {
+            Some(old) => Some(old),
+            None => notation::of_recipes(connection, &[token])?.remove(&token),
+        };
+        let mut nonmanual = old.map(|old| old.document.nonmanual).unwrap_or_default();
+        nonmanual.tiers.extend(written.nonmanual.tiers.clone());
         let document = Notated {
             gloss: written.gloss.clone(),
             text: Some(written.hamnosys.clone()),
             sign: written.sign.clone(),
-            nonmanual: written.nonmanual.clone(),
+            nonmanual,
             ..Notated::default()
         };
         let document = serde_json::to_string(&document)

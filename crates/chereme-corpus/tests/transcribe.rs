@@ -192,23 +192,26 @@ fn initial_postures_are_transcribed_as_written() {
     }
 }
 
-/// Acts of trunk, head and shoulders in SiGML, with the names of those that are read.
-const LEANING: [(&str, &[&str]); 4] = [
+/// Non-manual tiers in SiGML, with the names of the acts that are read and of those that are stored with them.
+const LEANING: [(&str, &[&str], &[&str]); 4] = [
     (
         r#"<body_tier><body_movement movement="TF"/></body_tier>
 <shoulder_tier><shoulder_movement movement="UR"/></shoulder_tier>
 <head_tier><head_movement movement="SR"/></head_tier>"#,
         &["shoulders.UR", "body.TF", "head.SR"],
+        &[],
     ),
     (
         r#"<body_tier><body_movement movement="ST"/></body_tier><head_tier><head_movement movement="NB"/></head_tier>"#,
         &["body.ST", "head.NB"],
+        &[],
     ),
     (
         r#"<body_tier><body_movement movement="RL"/></body_tier><facialexpr_tier><eye_brows movement="RB"/></facialexpr_tier>"#,
         &["body.RL"],
+        &["brows.RB"],
     ),
-    ("", &[]),
+    ("", &[], &[]),
 ];
 
 #[test]
@@ -216,7 +219,7 @@ fn acts_of_trunk_head_and_shoulders_are_read_and_stored() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
     let file = folder.path().join("s.sigml");
-    for (n, (tiers, acts)) in LEANING.into_iter().enumerate() {
+    for (n, (tiers, acts, kept)) in LEANING.into_iter().enumerate() {
         let sigml = format!(
             r#"<sigml><hamgestural_sign gloss="S"><sign_nonmanual>{tiers}</sign_nonmanual><sign_manual>
 <handconfig handshape="finger2"/><handconfig extfidir="ul" palmor="l"/>
@@ -245,7 +248,7 @@ fn acts_of_trunk_head_and_shoulders_are_read_and_stored() {
             "{tiers}"
         );
         let stored = corpus.notation(&address).expect("a notation").document;
-        assert_eq!(names(&stored.nonmanual), acts, "{tiers}");
+        assert_eq!(names(&stored.nonmanual), [acts, kept].concat(), "{tiers}");
     }
 }
 

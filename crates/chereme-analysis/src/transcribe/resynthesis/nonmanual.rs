@@ -24,7 +24,7 @@ const TOGETHER: usize = 2;
 /// Frames in which joints are compared, at even shares of the sign.
 const COMPARED: usize = 24;
 
-/// The acts of one tier that turn joints, one of those that are animated alike.
+/// A tier with its acts that turn joints. Of several acts that are animated alike, it has one.
 struct Tier {
     kind: TierKind,
     part: NonmanualPart,
