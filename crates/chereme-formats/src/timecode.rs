@@ -132,15 +132,11 @@ fn base(codes: &[Timecode]) -> (f64, bool) {
         }
     }
     steps.sort_by(f64::total_cmp);
-    let Some(step) = steps.get(steps.len() / 2) else {
-        // One row in each second, or a single row: the least base that holds the frames, if there are several.
+    across.sort_by(f64::total_cmp);
+    let middle = |all: &[f64]| all.get(all.len() / 2).copied();
+    let (Some(step), Some(turn)) = (middle(&steps), middle(&across)) else {
         return (usual, true);
     };
-    if across.is_empty() {
-        return (usual, true);
-    }
-    across.sort_by(f64::total_cmp);
-    let turn = across[across.len() / 2];
     let fits = possible.find(|base| (base + turn - step).abs() <= STEP_SLACK);
     match fits {
         Some(base) => (base, false),
