@@ -33,7 +33,7 @@ use crate::movement::{ChannelGroup, MotionTrack};
 use crate::search::index::SearchIndex;
 use learned::language::Samples;
 
-mod floor;
+pub(crate) mod floor;
 mod language;
 mod learned;
 pub(crate) mod notation;

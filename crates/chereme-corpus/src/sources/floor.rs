@@ -39,7 +39,7 @@ fn lowest(body: &Material) -> Option<f64> {
 }
 
 /// Returns a body that stands on the floor: the same one if it stands there already.
-pub(super) fn grounded(mut body: Material) -> Result<Material> {
+pub(crate) fn grounded(mut body: Material) -> Result<Material> {
     let Some(height) = hanging(&body) else {
         return Ok(body);
     };
@@ -96,13 +96,11 @@ mod tests {
         raised
     }
 
-    /// Returns the height of the lowest joint, and all channels, of signs made in a corpus of captures that are raised
-    /// by these many centimetres.
-    fn made(heights: &[f64], signer: Option<&str>) -> Vec<(f64, Vec<Channel>)> {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+    /// Returns a corpus of captures that are raised by these many centimetres.
+    fn corpus_of(folder: &std::path::Path, heights: &[f64]) -> Corpus {
+        let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
         let files = heights.iter().enumerate().map(|(nth, height)| {
-            let path = folder.path().join(format!("take{nth}.bvh"));
+            let path = folder.join(format!("take{nth}.bvh"));
             fs::write(&path, raised(*height)).expect("written");
             path
         });
@@ -115,6 +113,14 @@ mod tests {
                 &mut Progress::new(&mut hear),
             )
             .expect("taken in");
+        corpus
+    }
+
+    /// Returns the height of the lowest joint, and all channels, of signs made in a corpus of captures that are raised
+    /// by these many centimetres.
+    fn made(heights: &[f64], signer: Option<&str>) -> Vec<(f64, Vec<Channel>)> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus_of(folder.path(), heights);
         let staging = Staging {
             signer,
             language: None,
@@ -164,5 +170,28 @@ mod tests {
         for ((lowest, _), (usual, _)) in made(&[20.0], None).iter().zip(&stands) {
             assert!((lowest - usual - 0.2).abs() < 1e-6, "{lowest} {usual}");
         }
+    }
+
+    #[test]
+    fn signs_made_on_a_hanging_body_are_transcribed_by_animating_them_again() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus_of(folder.path(), &[-97.0]);
+        let file = folder.path().join("s.sigml");
+        let sigml = r#"<sigml><hamgestural_sign gloss="S"><sign_nonmanual>
+<body_tier><body_movement movement="TF"/></body_tier></sign_nonmanual><sign_manual>
+<handconfig handshape="flat"/><handconfig extfidir="u" palmor="l"/><location_bodyarm location="chest"/>
+</sign_manual></hamgestural_sign></sigml>"#;
+        fs::write(&file, sigml).expect("written");
+        let path = file.to_str().expect("a path");
+        let made = corpus.animate(&[path], &Staging::default(), Some("S"));
+        made.expect("animated");
+        let mut hear = unheard;
+        let read = corpus.transcribe(
+            &"S".parse().expect("an address"),
+            &mut Progress::new(&mut hear),
+        );
+        let read = read.expect("transcribed").nonmanual;
+        let acts: Vec<String> = read.acts().map(|(_, act)| act.name()).collect();
+        assert_eq!(acts, ["body.TF"], "only a sign animated again shows them");
     }
 }

@@ -22,6 +22,7 @@ use crate::error::Result;
 use crate::movement::MotionTrack;
 use crate::progress::{Progress, Step, Unit};
 use crate::recombine::{SOURCE, engine};
+use crate::sources::floor::grounded;
 use crate::sources::notation::{OWN_BODY, own_body};
 use crate::sources::standing;
 
@@ -129,7 +130,12 @@ impl Again {
             let Ok(recording) = address::recording(connection, &name) else {
                 return Ok(None);
             };
-            standing(connection, recording)?
+            // A body that hangs in the air performed on the floor, or earlier where it hangs.
+            let stage = standing(connection, recording)?;
+            match stage.hash == body.hash {
+                true => stage,
+                false => grounded(stage)?,
+            }
         };
         if stage.hash != body.hash {
             return Ok(None);
