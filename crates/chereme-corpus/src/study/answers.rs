@@ -28,7 +28,7 @@ pub struct Participant {
     pub code: String,
     /// The number that decided the order of trials.
     #[serde(default)]
-    pub seed: u64,
+    pub seed: u32,
     /// The day on which the questionnaire was begun, as `2026-11-27`; empty if unknown.
     #[serde(default)]
     pub started_day: String,
@@ -101,7 +101,7 @@ pub struct Answer {
     pub plays: u32,
     /// Milliseconds from the end of the first viewing to the answer.
     #[serde(default)]
-    pub ms: u64,
+    pub ms: u32,
     /// How often the page was hidden during the trial.
     #[serde(default)]
     pub hidden: u32,

@@ -102,6 +102,29 @@ pub enum Role {
     Check,
 }
 
+impl Role {
+    /// Every role with its name.
+    const NAMES: [(Self, &str); 3] = [
+        (Self::Training, "training"),
+        (Self::Main, "main"),
+        (Self::Check, "check"),
+    ];
+
+    /// Returns its name in files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        let found = Self::NAMES.iter().find(|it| it.0 == self);
+        found.map_or("main", |it| it.1)
+    }
+
+    /// Returns the role of that name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<Self> {
+        let found = Self::NAMES.iter().find(|it| it.1 == name);
+        found.map(|it| it.0)
+    }
+}
+
 #[allow(
     clippy::trivially_copy_pass_by_ref,
     reason = "the form that serde asks for"
