@@ -423,8 +423,23 @@ pub fn text_in<'a>(texts: &'a Texts, language: &str) -> Option<&'a str> {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
+
+    /// Returns a plan with trials of these items and conditions, and one question.
+    pub(in crate::study) fn plan_of(trials: &[(String, String)]) -> Plan {
+        let trials: Vec<serde_json::Value> = trials
+            .iter()
+            .map(|(item, condition)| {
+                serde_json::json!({"item": item, "condition": condition, "clip": item})
+            })
+            .collect();
+        let plan = serde_json::json!({
+            "format": PLAN_FORMAT, "version": PLAN_VERSION, "name": "test", "trials": trials,
+            "questions": [{"name": "realism", "kind": {"scale": {"low": 1, "high": 5}}}],
+        });
+        serde_json::from_value(plan).expect("a plan")
+    }
 
     #[test]
     fn a_plan_is_unchanged_by_its_json() {
