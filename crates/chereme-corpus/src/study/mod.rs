@@ -14,6 +14,8 @@
 
 pub mod answers;
 mod check;
+mod import;
+mod long;
 pub mod order;
 pub mod plan;
 mod request;
@@ -38,6 +40,7 @@ use crate::progress::{Progress, Step, Unit};
 use answers::Participant;
 use plan::Plan;
 
+pub use import::{AnswersFile, AnswersReport};
 pub use request::{StudyRequest, words};
 
 /// A study with everything that was answered.
@@ -120,7 +123,7 @@ impl Corpus {
     pub fn study(&self, name: &str) -> Result<Study> {
         let connection = self.store.read();
         let (id, plan) = found(connection, name)?;
-        let participants = db::participants(connection, id, &plan)?;
+        let participants = db::participants(connection, id, &plan, None)?;
         Ok(Study { plan, participants })
     }
 
