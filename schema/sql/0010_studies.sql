@@ -42,5 +42,6 @@ CREATE TABLE study_answer (
     plays          INTEGER NOT NULL,
     ms             INTEGER NOT NULL,
     hidden         INTEGER NOT NULL,
+    slow           INTEGER NOT NULL,
     UNIQUE (participant_id, n, question)
 ) STRICT;

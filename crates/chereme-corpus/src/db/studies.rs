@@ -67,18 +67,19 @@ pub(crate) fn participant_count(connection: &Connection, study: i64) -> Result<u
     Ok(u64::try_from(count).unwrap_or_default())
 }
 
-/// Returns the participants of a study with their answers, by code.
+/// Returns the participants of a study with their answers, by code; only the one with that code, if one is given.
 pub(crate) fn participants(
     connection: &Connection,
     study: i64,
     plan: &Plan,
+    code: Option<&str>,
 ) -> Result<Vec<Participant>> {
     let mut statement = connection.prepare_cached(
         "SELECT id, code, started_day, language, seed, finished, profile, consent, device
-         FROM study_participant WHERE study_id = ?1 ORDER BY code",
+         FROM study_participant WHERE study_id = ?1 AND (?2 IS NULL OR code = ?2) ORDER BY code",
     )?;
     let sha256 = plan.sha256();
-    let rows = statement.query_map([study], |row| {
+    let rows = statement.query_map(params![study, code], |row| {
         let head = Participant {
             format: ANSWERS_FORMAT.to_owned(),
             version: ANSWERS_VERSION,
@@ -106,7 +107,7 @@ pub(crate) fn participants(
 /// Returns the answers of a participant, in the order in which they were given.
 fn answers(connection: &Connection, participant: i64) -> Result<Vec<Answer>> {
     let mut statement = connection.prepare_cached(
-        "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right, plays, ms, hidden
+        "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right, plays, ms, hidden, slow
          FROM study_answer WHERE participant_id = ?1 ORDER BY id",
     )?;
     let rows = statement.query_map([participant], |row| {
@@ -127,6 +128,7 @@ fn answers(connection: &Connection, participant: i64) -> Result<Vec<Answer>> {
             plays: row.get(12)?,
             ms: row.get(13)?,
             hidden: row.get(14)?,
+            slow: row.get(15)?,
         })
     })?;
     Ok(rows.collect::<rusqlite::Result<_>>()?)
@@ -170,8 +172,8 @@ pub(crate) fn insert_participant(
     let participant = connection.last_insert_rowid();
     let mut statement = connection.prepare_cached(
         "INSERT INTO study_answer (participant_id, n, block, part, item, condition, role, question,
-             low, high, value, choice, right, plays, ms, hidden)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16)",
+             low, high, value, choice, right, plays, ms, hidden, slow)
+         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
     )?;
     for answer in &it.answers {
         statement.execute(params![
@@ -191,6 +193,7 @@ pub(crate) fn insert_participant(
             answer.plays,
             answer.ms,
             answer.hidden,
+            answer.slow,
         ])?;
     }
     Ok(())

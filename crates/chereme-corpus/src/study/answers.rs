@@ -105,4 +105,7 @@ pub struct Answer {
     /// How often the page was hidden during the trial.
     #[serde(default)]
     pub hidden: u32,
+    /// How often the film was played at half speed before the answer.
+    #[serde(default)]
+    pub slow: u32,
 }
