@@ -11,6 +11,7 @@
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `long`, `rows` | answers from files, and as a table |
+//! | [`report`] | people, answers, comparisons and conclusions |
 
 pub mod answers;
 mod check;
@@ -18,6 +19,7 @@ mod import;
 mod long;
 pub mod order;
 pub mod plan;
+pub mod report;
 mod request;
 mod rows;
 mod texts;
