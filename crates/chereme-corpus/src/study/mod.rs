@@ -13,6 +13,7 @@
 //! | `import`, `long`, `rows` | answers from files, and as a table |
 
 pub mod answers;
+mod build;
 mod check;
 mod import;
 mod long;
@@ -40,6 +41,7 @@ use crate::progress::{Progress, Step, Unit};
 use answers::Participant;
 use plan::Plan;
 
+pub use build::{Questionnaire, QuestionnaireOptions};
 pub use import::{AnswersFile, AnswersReport};
 pub use request::{StudyRequest, words};
 
