@@ -43,6 +43,7 @@ mod moving;
 mod notes;
 mod queries;
 mod reading;
+mod studies;
 pub mod trouble;
 
 /// Returns `text` with each `{name}` replaced by its value in `values`.
