@@ -14,6 +14,7 @@
 //! | [`report`] | people, answers, comparisons and conclusions |
 
 pub mod answers;
+mod build;
 mod check;
 mod import;
 mod long;
@@ -42,6 +43,7 @@ use crate::progress::{Progress, Step, Unit};
 use answers::Participant;
 use plan::Plan;
 
+pub use build::{Questionnaire, QuestionnaireOptions};
 pub use import::{AnswersFile, AnswersReport};
 pub use request::{StudyRequest, words};
 

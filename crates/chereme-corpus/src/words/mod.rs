@@ -44,6 +44,7 @@ mod notes;
 mod queries;
 mod reading;
 pub mod reporting;
+mod studies;
 pub mod trouble;
 
 /// Returns `text` with each `{name}` replaced by its value in `values`.
