@@ -24,6 +24,7 @@ use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
 use super::reading::READING;
+use super::reporting::REPORTS;
 use super::studies::STUDIES;
 use crate::import::readers::endings;
 
@@ -523,6 +524,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(CODING)
         .chain(READING)
         .chain(STUDIES)
+        .chain(REPORTS)
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)

@@ -23,14 +23,14 @@ texts! {
     PART: "Part: {name}", "Partie : {name}";
     NO_ANSWERS: "There are no answers.", "Il n’y a pas de réponses.";
     CONDITION: "condition", "condition";
-    ITEM: "item", "item";
+    ITEM: "item", "élément";
     ANSWERS: "answers", "réponses";
     CANNOT_SAY: "cannot say", "ne sait pas";
     MEAN: "mean", "moyenne";
     SD: "s.d.", "éc.-type";
     MEDIAN: "median", "médiane";
     QUARTILES: "quartiles", "quartiles";
-    EACH_ITEM: "Each item", "Chaque item";
+    EACH_ITEM: "Each item", "Chaque élément";
     RECOGNISED: "right", "juste";
     INTERVAL_95: "95% interval", "intervalle à 95 %";
     BARS: "Answers, centred on the middle of the scale", "Réponses, centrées sur le milieu de l’échelle";
@@ -45,7 +45,7 @@ texts! {
     CONFUSION_NOTE: "One row for each right option, one column for each chosen option; right answers are framed.", "Une ligne par option juste, une colonne par option choisie ; les réponses justes sont encadrées.";
     ALL_CONDITIONS: "all conditions", "toutes les conditions";
     MODEL: "Cumulative link model: odds of a higher answer than with {reference}.", "Modèle à lien cumulatif : cote d’une réponse plus haute qu’avec {reference}.";
-    MODEL_ITEMS: "Items are in the model as fixed effects.", "Les items sont dans le modèle comme effets fixes.";
+    MODEL_ITEMS: "Items are in the model as fixed effects.", "Les éléments sont dans le modèle comme effets fixes.";
     MODEL_NOTE: "It takes answers of one person as independent.", "Il suppose indépendantes les réponses d’une même personne.";
     NO_MODEL: "Cumulative link model: none, because {why}.", "Modèle à lien cumulatif : aucun, car {why}.";
     ODDS: "odds ratio", "rapport de cotes";
@@ -120,6 +120,26 @@ texts! {
     UNEQUAL: "the lists have different lengths", "les listes n’ont pas la même longueur";
     OUT_OF_RANGE: "a level, count or bound is out of range", "un seuil, un compte ou une borne est hors limites";
 }
+
+/// Messages and remedies about reports.
+pub(super) const REPORTS: &[(&str, &str)] = &[
+    (
+        "a report cannot be written as .{ending}",
+        "un rapport ne peut pas être écrit en .{ending}",
+    ),
+    (
+        "give a name that ends in .html or .json, or a folder",
+        "donnez un nom qui se termine par .html ou .json, ou un dossier",
+    ),
+    (
+        "the report cannot be written: {error}",
+        "le rapport ne peut pas être écrit : {error}",
+    ),
+    (
+        "a table cannot be written: {error}",
+        "un tableau ne peut pas être écrit : {error}",
+    ),
+];
 
 /// Returns the words for the reason why a statistic has no value.
 #[must_use]

@@ -6,12 +6,12 @@ use crate::words::Words;
 pub(in crate::commands) const WORDS: Words = Words {
     help: &[
         (
-            "Run a perceptual study: plan it, build its questionnaire, import the answers",
-            "Mener une étude perceptive : la préparer, construire son questionnaire, importer les réponses",
+            "Run a perceptual study: plan it, build its questionnaire, import the answers, report on them",
+            "Mener une étude perceptive : la préparer, construire son questionnaire, importer les réponses, en rendre compte",
         ),
         (
-            "A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard; people answer it and send back the file that it saves. `import` brings the files into the corpus.",
-            "Une étude montre à des personnes des extraits du corpus et pose des questions. `new` enregistre un plan, `build` crée un dossier avec une page et ses films. La page fonctionne dans un navigateur sans réseau, en anglais et en français, à la souris ou au clavier ; les personnes y répondent et renvoient le fichier qu’elle enregistre. `import` apporte les fichiers dans le corpus.",
+            "A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard; people answer it and send back the file that it saves. `import` brings the files into the corpus, and `report` says what the answers show.",
+            "Une étude montre à des personnes des extraits du corpus et pose des questions. `new` enregistre un plan, `build` crée un dossier avec une page et ses films. La page fonctionne dans un navigateur sans réseau, en anglais et en français, à la souris ou au clavier ; les personnes y répondent et renvoient le fichier qu’elle enregistre. `import` apporte les fichiers dans le corpus, et `report` dit ce que montrent les réponses.",
         ),
         (
             "Plan a study: items in conditions, or a table of trials, and questions",
@@ -55,6 +55,22 @@ pub(in crate::commands) const WORDS: Words = Words {
             "Les réponses à un autre plan, à des essais inconnus ou hors d’une échelle sont laissées de côté et signalées. Des réponses plus récentes remplacent celles d’un participant qui n’avait pas terminé. Le même fichier deux fois ne change rien.",
         ),
         ("The files or folders", "Les fichiers ou dossiers"),
+        (
+            "Report on the answers: people, counts, recognition, comparisons, conclusions",
+            "Rendre compte des réponses : personnes, comptes, reconnaissance, comparaisons, conclusions",
+        ),
+        (
+            "Conclusions follow the hypotheses of the plan. Without hypotheses all pairs of conditions are compared, and nothing is concluded. Tests are two-sided unless the plan expects a trend. Beside the test of all answers stands one of the means of people, which conclusions follow; intervals come from resampled people. FILE.html is a page with figures, which needs no network; a folder gets the page, the JSON and tables. The same plan and answers give the same bytes.",
+            "Les conclusions suivent les hypothèses du plan. Sans hypothèse, toutes les paires de conditions sont comparées et rien n’est conclu. Les tests sont bilatéraux, sauf si le plan attend une tendance. À côté du test de toutes les réponses figure celui des moyennes des personnes, que suivent les conclusions ; les intervalles viennent de personnes rééchantillonnées. FICHIER.html est une page avec des figures, qui n’a pas besoin de réseau ; un dossier reçoit la page, le JSON et des tableaux. Le même plan et les mêmes réponses donnent les mêmes octets.",
+        ),
+        (
+            "The page (.html), the document (.json), or a folder for both and tables",
+            "La page (.html), le document (.json), ou un dossier pour les deux et des tableaux",
+        ),
+        (
+            "Replace files that exist already",
+            "Remplacer des fichiers qui existent déjà",
+        ),
         (
             "Write all answers as a table (.csv), one answer a row",
             "Écrire toutes les réponses dans un tableau (.csv), une réponse par ligne",
@@ -143,6 +159,16 @@ pub(in crate::commands) const WORDS: Words = Words {
             "deleted {code}; undo restores the answers, so the file still holds them",
             "{code} supprimé ; undo rétablit les réponses, le fichier les contient donc encore",
         ),
+        (
+            "{n} participants answered, {m} are analysed",
+            "participants : {n} ont répondu, {m} sont analysés",
+        ),
+        ("report: {path}", "rapport : {path}"),
+        (
+            "{measure} and {question}: rho {rho}",
+            "{measure} et {question} : rho {rho}",
+        ),
+        ("left out: {n}: {why}", "écartés : {n} : {why}"),
         ("deleted the study {name}", "étude {name} supprimée"),
         (
             "replaced the plan, which nobody had answered",
@@ -165,5 +191,16 @@ pub(in crate::commands) const WORDS: Words = Words {
         ("question", "question"),
         ("answers", "réponses"),
         ("text", "texte"),
+        ("mean", "moyenne"),
+        ("s.d.", "éc.-type"),
+        ("median", "médiane"),
+        ("right", "juste"),
+        ("hypothesis", "hypothèse"),
+        ("first", "premier"),
+        ("second", "second"),
+        ("delta", "delta"),
+        ("interval", "intervalle"),
+        ("p, all answers", "p, réponses"),
+        ("p, people", "p, personnes"),
     ],
 };

@@ -1,6 +1,7 @@
 //! `chereme study`: perceptual studies, from the plan to the answers.
 
 mod french;
+mod report;
 
 use std::path::PathBuf;
 
@@ -18,11 +19,12 @@ use crate::output::{Bar, Output};
 
 pub(super) use french::WORDS;
 
-/// Run a perceptual study: plan it, build its questionnaire, import the answers
+/// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
 ///
 /// A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one
 /// page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard;
-/// people answer it and send back the file that it saves. `import` brings the files into the corpus.
+/// people answer it and send back the file that it saves. `import` brings the files into the corpus, and `report`
+/// says what the answers show.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -30,7 +32,8 @@ Examples:
   chereme study new lsf.chereme pointing --trials trials.csv --ask 'place@bowls=left right' --ask realism
   chereme study build lsf.chereme places --to places/
   chereme study import lsf.chereme places answers/
-  chereme study answers lsf.chereme places --to answers.csv")]
+  chereme study answers lsf.chereme places --to answers.csv
+  chereme study report lsf.chereme places --to report.html")]
 pub(crate) struct Args {
     #[command(subcommand)]
     action: Action,
@@ -101,6 +104,7 @@ enum Action {
         #[arg(long)]
         force: bool,
     },
+    Report(report::Args),
     /// Delete a participant with all answers, because the person asks for it
     ///
     /// The answers leave the study and every export, but not the file: the history keeps them, so that undo can restore
@@ -274,6 +278,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             output.line(format!("wrote {count} answers to {}", to.display()))?;
             output.document(serde_json::json!({ "path": to, "answers": count }))
         }
+        Action::Report(args) => report::run(cli, args, output),
         Action::Forget { corpus, name, code } => {
             cli.open(corpus)?.forget_participant(name, code)?;
             output.line(format!(

@@ -7,6 +7,7 @@ use std::fmt::Write as _;
 
 use chereme_analysis::statistics::Description;
 
+use super::numbers::{number, percent};
 use super::{Confusion, Ends, MeasurePoint, Share};
 use crate::map::escaped;
 use crate::words::{Language, reporting as w};
@@ -27,29 +28,6 @@ const BLUES: [[f64; 3]; 3] = [
     [120.0, 170.0, 214.0],
     [12.0, 62.0, 117.0],
 ];
-
-/// Returns a number with a minus sign and the decimal mark of the language.
-pub(super) fn number(value: f64, decimals: usize, language: Language) -> String {
-    let text = format!("{value:.decimals$}");
-    let zero = text.chars().all(|c| matches!(c, '-' | '0' | '.'));
-    let text = if zero {
-        text.replace('-', "")
-    } else {
-        text.replace('-', "−")
-    };
-    match language {
-        Language::French => text.replace('.', ","),
-        Language::English => text,
-    }
-}
-
-/// Returns a share in percent.
-pub(super) fn percent(share: f64, language: Language) -> String {
-    match language {
-        Language::French => format!("{}\u{a0}%", number(100.0 * share, 1, language)),
-        Language::English => format!("{}%", number(100.0 * share, 1, language)),
-    }
-}
 
 /// Returns the colour at a share of the path through some shades, and the colour of letters on it.
 fn shade(shades: &[[f64; 3]], share: f64) -> (String, &'static str) {

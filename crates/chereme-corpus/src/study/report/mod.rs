@@ -6,6 +6,7 @@ mod charts;
 mod compare;
 mod conclude;
 mod groups;
+pub mod numbers;
 mod page;
 mod people;
 mod tables;
@@ -17,6 +18,9 @@ use chereme_analysis::statistics::{
     Undefined, ordinal,
 };
 use serde::Serialize;
+
+use crate::Corpus;
+use crate::error::Result;
 
 use super::answers::Participant;
 use super::plan::{Exclusion, Expectation, Plan, QuestionKind, Texts};
@@ -95,7 +99,7 @@ impl<T> Outcome<T> {
         self.result().ok()
     }
 
-    fn result(&self) -> Result<&T, Undefined> {
+    fn result(&self) -> std::result::Result<&T, Undefined> {
         match self {
             Self::Found(it) => Ok(it),
             Self::Nothing { why } => Err(*why),
@@ -103,8 +107,8 @@ impl<T> Outcome<T> {
     }
 }
 
-impl<T> From<Result<T, Undefined>> for Outcome<T> {
-    fn from(result: Result<T, Undefined>) -> Self {
+impl<T> From<std::result::Result<T, Undefined>> for Outcome<T> {
+    fn from(result: std::result::Result<T, Undefined>) -> Self {
         match result {
             Ok(it) => Self::Found(it),
             Err(why) => Self::Nothing { why },
@@ -481,6 +485,18 @@ pub enum Because {
     WideInterval,
     /// There is no test.
     NoTest(Undefined),
+}
+
+impl Corpus {
+    /// Returns the report of a study with the usual settings.
+    ///
+    /// # Errors
+    /// Fails if there is no study of that name.
+    pub fn report_study(&self, name: &str) -> Result<Report> {
+        let study = self.study(name)?;
+        let options = ReportOptions::default();
+        Ok(report(&study.plan, &study.participants, &options))
+    }
 }
 
 /// Makes the report of a study.

@@ -1,17 +1,17 @@
 //! The report as one page: HTML with its figures inside, which needs no network.
 
+mod comparisons;
+
 use std::fmt::Write as _;
 
-use chereme_analysis::statistics::Undefined;
-
-use super::charts::{self, Bar, BoxRow, number, percent};
-use super::compare::{ALPHA, SMALLEST};
+use super::charts::{self, Bar, BoxRow};
+use super::numbers::{because, number, p, percent, reason};
 use super::{
-    Because, Compared, Conclusion, Confusion, Ends, Group, ModelReport, Outcome, Pair, PairTest,
-    QuestionReport, Reason, Report, Stated, Verdict,
+    Compared, Conclusion, Confusion, Group, ModelReport, Outcome, QuestionReport, Report, Stated,
+    Verdict,
 };
 use crate::map::escaped;
-use crate::study::plan::{Exclusion, Expectation, QuestionKind, Texts, text_in};
+use crate::study::plan::{Expectation, QuestionKind, Texts, text_in};
 use crate::words::{Language, Text, fill, reporting as w};
 
 const STYLE: &str = include_str!("page.css");
@@ -34,37 +34,6 @@ pub(super) struct Page<'a> {
     report: &'a Report,
     language: Language,
     out: String,
-}
-
-/// Returns p with two digits that count, or as less than 0.0001.
-pub(super) fn p_text(p: f64, language: Language) -> String {
-    match p {
-        p if p < 0.0001 => format!("< {}", number(0.0001, 4, language)),
-        p if p < 0.01 => number(p, 4, language),
-        p => number(p, 3, language),
-    }
-}
-
-/// Returns the sentence for the reason of a conclusion.
-pub(super) fn because_text(because: Because, language: Language) -> String {
-    let why = match because {
-        Because::NoTest(why) => w::undefined(why).of(language),
-        _ => "",
-    };
-    fill(w::because(because).of(language), &[("why", &why)])
-}
-
-/// Returns the words for a reason to leave somebody out.
-pub(super) fn reason_text(reason: &Reason, language: Language) -> String {
-    let (n, question) = match reason {
-        Reason::Rule(Exclusion::ChecksWrong(n)) => (*n, ""),
-        Reason::Filter { question } => (0, question.as_str()),
-        _ => (0, ""),
-    };
-    fill(
-        w::reason(reason).of(language),
-        &[("n", &n), ("question", &question)],
-    )
 }
 
 impl Page<'_> {
@@ -162,7 +131,7 @@ impl Page<'_> {
             let words = self.say(w::verdict(conclusion.verdict));
             let text = escaped(self.text_of(&stated.text, ""));
             let expects = escaped(&self.expectation(compared, stated));
-            let because = escaped(&because_text(conclusion.because, self.language));
+            let because = escaped(&because(conclusion.because, self.language));
             self.put(format!(
                 "<div class=\"card {class}\"><strong>{}</strong> <span class=\"badge\">{mark} {words}</span>\
                  <p>{text}</p><p class=\"soft\">{expects}. {because}</p></div>",
@@ -204,7 +173,7 @@ impl Page<'_> {
         let left_out: usize = people.excluded.iter().map(|it| it.count).sum();
         let mut reasons = String::new();
         for it in &people.excluded {
-            let words = escaped(&reason_text(&it.reason, self.language));
+            let words = escaped(&reason(&it.reason, self.language));
             let _ = write!(reasons, "<li>{}: {words}</li>", it.count);
         }
         self.put(format!(
@@ -476,221 +445,11 @@ impl Page<'_> {
             .map(|(name, it)| {
                 let odds = |by: f64| number((it.estimate + by * it.se).exp(), 2, self.language);
                 let interval = format!("{}–{}", odds(-1.959_964), odds(1.959_964));
-                vec![
-                    name.clone(),
-                    odds(0.0),
-                    interval,
-                    p_text(it.p, self.language),
-                ]
+                vec![name.clone(), odds(0.0), interval, p(it.p, self.language)]
             });
         let rows: Vec<Vec<String>> = rows.collect();
         let titles = [w::CONDITION, w::ODDS, w::INTERVAL_95, w::P].map(|it| self.say(it));
         self.table(&titles, &rows);
-    }
-
-    fn comparisons(&mut self) {
-        self.heading(2, self.say(w::COMPARISONS));
-        for compared in &self.report.comparisons {
-            let title = match &compared.hypothesis {
-                Some(stated) => {
-                    let text = self.text_of(&stated.text, "");
-                    let both = [stated.name.as_str(), text];
-                    let both: Vec<&str> = both.into_iter().filter(|it| !it.is_empty()).collect();
-                    both.join(": ")
-                }
-                None => {
-                    let names = [compared.question.as_str(), &compared.part];
-                    let names: Vec<&str> = names.into_iter().filter(|it| !it.is_empty()).collect();
-                    fill(self.say(w::ALL_PAIRS), &[("question", &names.join(", "))])
-                }
-            };
-            self.heading(3, &title);
-            self.comparison(compared);
-        }
-    }
-
-    fn comparison(&mut self, compared: &Compared) {
-        if let Some(measure) = &compared.measure {
-            self.measure(measure, &compared.question);
-            return;
-        }
-        let side = if compared.is_one_sided() {
-            w::ONE_SIDED
-        } else {
-            w::TWO_SIDED
-        };
-        self.paragraph("soft", self.say(side));
-        let number = |value: f64, decimals| number(value, decimals, self.language);
-        let rows = compared.groups.iter().map(|it| {
-            let mut row = vec![it.label.clone(), it.people.to_string()];
-            match &it.description {
-                Outcome::Found(own) => row.extend([
-                    own.n.to_string(),
-                    number(own.mean, 3),
-                    own.sd.map_or_else(String::new, |sd| number(sd, 3)),
-                    number(own.median, 1),
-                ]),
-                Outcome::Nothing { why } => row.push(self.say(w::undefined(*why)).to_owned()),
-            }
-            row
-        });
-        let rows: Vec<Vec<String>> = rows.collect();
-        let titles = [w::GROUP, w::PERSONS, w::ANSWERS, w::MEAN, w::SD, w::MEDIAN];
-        self.table(&titles.map(|it| self.say(it)), &rows);
-        if let Some(overall) = &compared.overall {
-            let p = |found: Result<f64, Undefined>| match found {
-                Ok(p) => format!("p {}", p_text(p, self.language)),
-                Err(why) => self.none(why),
-            };
-            let pooled = p(overall.pooled.result().map(|it| it.p));
-            let people = p(overall.people.result().map(|it| it.p));
-            let words = fill(
-                self.say(w::OVERALL),
-                &[("pooled", &pooled), ("people", &people)],
-            );
-            self.paragraph("", &words);
-        }
-        self.pairs(compared);
-    }
-
-    fn none(&self, why: Undefined) -> String {
-        let why = self.say(w::undefined(why));
-        fill(self.say(w::NONE_BECAUSE), &[("why", &why)])
-    }
-
-    fn pairs(&mut self, compared: &Compared) {
-        let name = |it: &Pair| {
-            it.groups
-                .map(|at| compared.groups[at].label.clone())
-                .join(" − ")
-        };
-        let rows: Vec<(String, f64, Option<Ends>)> = compared
-            .pairs
-            .iter()
-            .filter_map(|it| {
-                let effect = it.effect.found()?;
-                Some((name(it), effect.delta, effect.interval.found().copied()))
-            })
-            .collect();
-        let bound = compared.bound();
-        if !rows.is_empty() {
-            let figure = charts::effects(&rows, bound, self.language);
-            let resampling = &self.report.resampling;
-            let (level, bound) = (
-                percent(resampling.level, self.language),
-                number(bound, 3, self.language),
-            );
-            let values: [(&str, &dyn std::fmt::Display); 3] = [
-                ("level", &level),
-                ("times", &resampling.times),
-                ("bound", &bound),
-            ];
-            let note = fill(self.say(w::EFFECTS_NOTE), &values);
-            self.figure(&figure, &note);
-        }
-        let rows: Vec<Vec<String>> = compared
-            .pairs
-            .iter()
-            .map(|it| self.pair_row(it, name(it)))
-            .collect();
-        let bound = number(bound, 3, self.language);
-        let sameness = fill(self.say(w::SAMENESS), &[("bound", &bound)]);
-        let mut titles = vec![self.say(w::PAIR), self.say(w::POOLED), self.say(w::P_HOLM)];
-        titles.extend([w::BY_PERSON, w::P_HOLM, w::DIFFERENCE, w::SIZE].map(|it| self.say(it)));
-        titles.push(&sameness);
-        self.table(&titles, &rows);
-        let alpha = compared.hypothesis.as_ref().map_or(ALPHA, |it| it.alpha);
-        for pair in &compared.pairs {
-            if let (Some(pooled), Some(people)) = (pair.pooled.found(), pair.people.found())
-                && (pooled.p_holm < alpha) != (people.p_holm < alpha)
-            {
-                let n = pooled.n[0] + pooled.n[1];
-                let words = fill(self.say(w::DISAGREE), &[("n", &n)]);
-                self.paragraph("soft", &format!("{}: {words}", name(pair)));
-            }
-        }
-    }
-
-    fn pair_row(&self, pair: &Pair, name: String) -> Vec<String> {
-        let mut row = vec![name];
-        for test in [&pair.pooled, &pair.people] {
-            match test.result() {
-                Ok(it) => row.extend([self.test(it), p_text(it.p_holm, self.language)]),
-                Err(why) => row.extend([self.none(why), String::new()]),
-            }
-        }
-        let difference = pair.mean_difference;
-        row.push(difference.map_or_else(String::new, |it| number(it, 3, self.language)));
-        let effect = pair.effect.found();
-        row.push(
-            effect
-                .map_or("", |it| self.say(w::size(it.size)))
-                .to_owned(),
-        );
-        row.push(match pair.sameness.result() {
-            Ok(it) => {
-                let [low, high] =
-                    [it.ends.low, it.ends.high].map(|end| number(end, 3, self.language));
-                format!("{} [{low}; {high}]", self.say(w::sameness(it.result)))
-            }
-            Err(why) => self.none(why),
-        });
-        row
-    }
-
-    /// Returns a test with its numbers: `Wilcoxon 812.5, n 57, p 0.031 (exact)`.
-    fn test(&self, test: &PairTest) -> String {
-        let statistic = test.statistic.map_or_else(String::new, |it| {
-            let decimals = if it.fract() == 0.0 { 0 } else { 2 };
-            format!(" {}", number(it, decimals, self.language))
-        });
-        let n = if test.n[0] == test.n[1] {
-            test.n[0].to_string()
-        } else {
-            format!("{}, {}", test.n[0], test.n[1])
-        };
-        let p = p_text(test.p, self.language);
-        let equals = if p.starts_with('<') { "" } else { "= " };
-        let (name, method) = (
-            self.say(w::test(test.test)),
-            self.say(w::method(test.method)),
-        );
-        format!("{name}{statistic}, n = {n}, p {equals}{p} ({method})")
-    }
-
-    fn measure(&mut self, measure: &super::MeasureReport, question: &str) {
-        let figure =
-            charts::correlation(&measure.points, [&measure.measure, question], self.language);
-        let coefficient = |found: Result<f64, Undefined>| match found {
-            Ok(it) => number(it, 3, self.language),
-            Err(why) => self.none(why),
-        };
-        let rho = coefficient(measure.spearman.result().map(|it| it.coefficient));
-        let tau = coefficient(measure.kendall.result().map(|it| it.coefficient));
-        let p = measure.spearman.found().and_then(|it| it.p);
-        let p = p.map_or_else(|| "–".to_owned(), |p| p_text(p, self.language));
-        let interval = match measure.interval.result() {
-            Ok(it) => {
-                let [low, high] = [it.low, it.high].map(|end| number(end, 3, self.language));
-                format!("[{low}; {high}]")
-            }
-            Err(why) => self.none(why),
-        };
-        let n = measure.points.len();
-        let values: [(&str, &dyn std::fmt::Display); 6] = [
-            ("measure", &measure.measure),
-            ("n", &n),
-            ("rho", &rho),
-            ("p", &p),
-            ("interval", &interval),
-            ("tau", &tau),
-        ];
-        let note = fill(self.say(w::MEASURE), &values);
-        if measure.points.is_empty() {
-            self.paragraph("", &note);
-        } else {
-            self.figure(&figure, &note);
-        }
     }
 
     fn methods(&mut self) {
@@ -718,22 +477,5 @@ fn bar_of_condition(group: &Group) -> Bar<'_> {
     Bar {
         label: &group.condition,
         counts: &group.counts,
-    }
-}
-
-impl Compared {
-    /// Returns whether its tests look in one direction only.
-    #[must_use]
-    pub fn is_one_sided(&self) -> bool {
-        self.side != chereme_analysis::statistics::Alternative::TwoSided
-    }
-
-    /// Returns the smallest difference of interest, as Cliff's delta.
-    #[must_use]
-    pub fn bound(&self) -> f64 {
-        match self.hypothesis.as_ref().map(|it| it.expects) {
-            Some(Expectation::SameWithin(bound)) => bound,
-            _ => SMALLEST,
-        }
     }
 }

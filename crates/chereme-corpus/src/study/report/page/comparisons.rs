@@ -1,0 +1,237 @@
+//! The comparisons on the page: tests, effects, sameness and correlations.
+
+use std::fmt::Display;
+
+use chereme_analysis::statistics::{Alternative, Undefined};
+
+use super::Page;
+use crate::study::plan::Expectation;
+use crate::study::report::charts;
+use crate::study::report::compare::{ALPHA, SMALLEST};
+use crate::study::report::numbers::{self, number, percent};
+use crate::study::report::{Compared, Ends, MeasureReport, Outcome, Pair, PairTest};
+use crate::words::{fill, reporting as w};
+
+impl Page<'_> {
+    pub(super) fn comparisons(&mut self) {
+        self.heading(2, self.say(w::COMPARISONS));
+        for compared in &self.report.comparisons {
+            let title = match &compared.hypothesis {
+                Some(stated) => {
+                    let text = self.text_of(&stated.text, "");
+                    let both = [stated.name.as_str(), text];
+                    let both: Vec<&str> = both.into_iter().filter(|it| !it.is_empty()).collect();
+                    both.join(": ")
+                }
+                None => {
+                    let names = [compared.question.as_str(), &compared.part];
+                    let names: Vec<&str> = names.into_iter().filter(|it| !it.is_empty()).collect();
+                    fill(self.say(w::ALL_PAIRS), &[("question", &names.join(", "))])
+                }
+            };
+            self.heading(3, &title);
+            self.comparison(compared);
+        }
+    }
+
+    fn comparison(&mut self, compared: &Compared) {
+        if let Some(measure) = &compared.measure {
+            self.measure(measure, &compared.question);
+            return;
+        }
+        let side = if compared.is_one_sided() {
+            w::ONE_SIDED
+        } else {
+            w::TWO_SIDED
+        };
+        self.paragraph("soft", self.say(side));
+        let number = |value: f64, decimals| number(value, decimals, self.language);
+        let rows = compared.groups.iter().map(|it| {
+            let mut row = vec![it.label.clone(), it.people.to_string()];
+            match &it.description {
+                Outcome::Found(own) => row.extend([
+                    own.n.to_string(),
+                    number(own.mean, 3),
+                    own.sd.map_or_else(String::new, |sd| number(sd, 3)),
+                    number(own.median, 1),
+                ]),
+                Outcome::Nothing { why } => row.push(self.say(w::undefined(*why)).to_owned()),
+            }
+            row
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
+        let titles = [w::GROUP, w::PERSONS, w::ANSWERS, w::MEAN, w::SD, w::MEDIAN];
+        self.table(&titles.map(|it| self.say(it)), &rows);
+        if let Some(overall) = &compared.overall {
+            let p = |found: Result<f64, Undefined>| match found {
+                Ok(p) => format!("p {}", numbers::p(p, self.language)),
+                Err(why) => self.none(why),
+            };
+            let pooled = p(overall.pooled.result().map(|it| it.p));
+            let people = p(overall.people.result().map(|it| it.p));
+            let words = fill(
+                self.say(w::OVERALL),
+                &[("pooled", &pooled), ("people", &people)],
+            );
+            self.paragraph("", &words);
+        }
+        self.pairs(compared);
+    }
+
+    fn none(&self, why: Undefined) -> String {
+        let why = self.say(w::undefined(why));
+        fill(self.say(w::NONE_BECAUSE), &[("why", &why)])
+    }
+
+    fn pairs(&mut self, compared: &Compared) {
+        let name = |it: &Pair| {
+            it.groups
+                .map(|at| compared.groups[at].label.clone())
+                .join(" − ")
+        };
+        let rows: Vec<(String, f64, Option<Ends>)> = compared
+            .pairs
+            .iter()
+            .filter_map(|it| {
+                let effect = it.effect.found()?;
+                Some((name(it), effect.delta, effect.interval.found().copied()))
+            })
+            .collect();
+        let bound = compared.bound();
+        if !rows.is_empty() {
+            let figure = charts::effects(&rows, bound, self.language);
+            let resampling = &self.report.resampling;
+            let (level, bound) = (
+                percent(resampling.level, self.language),
+                number(bound, 3, self.language),
+            );
+            let values: [(&str, &dyn Display); 3] = [
+                ("level", &level),
+                ("times", &resampling.times),
+                ("bound", &bound),
+            ];
+            let note = fill(self.say(w::EFFECTS_NOTE), &values);
+            self.figure(&figure, &note);
+        }
+        let rows: Vec<Vec<String>> = compared
+            .pairs
+            .iter()
+            .map(|it| self.pair_row(it, name(it)))
+            .collect();
+        let bound = number(bound, 3, self.language);
+        let sameness = fill(self.say(w::SAMENESS), &[("bound", &bound)]);
+        let mut titles = vec![self.say(w::PAIR), self.say(w::POOLED), self.say(w::P_HOLM)];
+        titles.extend([w::BY_PERSON, w::P_HOLM, w::DIFFERENCE, w::SIZE].map(|it| self.say(it)));
+        titles.push(&sameness);
+        self.table(&titles, &rows);
+        let alpha = compared.hypothesis.as_ref().map_or(ALPHA, |it| it.alpha);
+        for pair in &compared.pairs {
+            if let (Some(pooled), Some(people)) = (pair.pooled.found(), pair.people.found())
+                && (pooled.p_holm < alpha) != (people.p_holm < alpha)
+            {
+                let n = pooled.n[0] + pooled.n[1];
+                let words = fill(self.say(w::DISAGREE), &[("n", &n)]);
+                self.paragraph("soft", &format!("{}: {words}", name(pair)));
+            }
+        }
+    }
+
+    fn pair_row(&self, pair: &Pair, name: String) -> Vec<String> {
+        let mut row = vec![name];
+        for test in [&pair.pooled, &pair.people] {
+            match test.result() {
+                Ok(it) => row.extend([self.test(it), numbers::p(it.p_holm, self.language)]),
+                Err(why) => row.extend([self.none(why), String::new()]),
+            }
+        }
+        let difference = pair.mean_difference;
+        row.push(difference.map_or_else(String::new, |it| number(it, 3, self.language)));
+        let effect = pair.effect.found();
+        row.push(
+            effect
+                .map_or("", |it| self.say(w::size(it.size)))
+                .to_owned(),
+        );
+        row.push(match pair.sameness.result() {
+            Ok(it) => {
+                let [low, high] =
+                    [it.ends.low, it.ends.high].map(|end| number(end, 3, self.language));
+                format!("{} [{low}; {high}]", self.say(w::sameness(it.result)))
+            }
+            Err(why) => self.none(why),
+        });
+        row
+    }
+
+    /// Returns a test with its numbers: `Wilcoxon 812.5, n 57, p 0.031 (exact)`.
+    fn test(&self, test: &PairTest) -> String {
+        let statistic = test.statistic.map_or_else(String::new, |it| {
+            let decimals = if it.fract() == 0.0 { 0 } else { 2 };
+            format!(" {}", number(it, decimals, self.language))
+        });
+        let n = if test.n[0] == test.n[1] {
+            test.n[0].to_string()
+        } else {
+            format!("{}, {}", test.n[0], test.n[1])
+        };
+        let p = numbers::p(test.p, self.language);
+        let equals = if p.starts_with('<') { "" } else { "= " };
+        let (name, method) = (
+            self.say(w::test(test.test)),
+            self.say(w::method(test.method)),
+        );
+        format!("{name}{statistic}, n = {n}, p {equals}{p} ({method})")
+    }
+
+    fn measure(&mut self, measure: &MeasureReport, question: &str) {
+        let figure =
+            charts::correlation(&measure.points, [&measure.measure, question], self.language);
+        let coefficient = |found: Result<f64, Undefined>| match found {
+            Ok(it) => number(it, 3, self.language),
+            Err(why) => self.none(why),
+        };
+        let rho = coefficient(measure.spearman.result().map(|it| it.coefficient));
+        let tau = coefficient(measure.kendall.result().map(|it| it.coefficient));
+        let p = measure.spearman.found().and_then(|it| it.p);
+        let p = p.map_or_else(|| "–".to_owned(), |p| numbers::p(p, self.language));
+        let interval = match measure.interval.result() {
+            Ok(it) => {
+                let [low, high] = [it.low, it.high].map(|end| number(end, 3, self.language));
+                format!("[{low}; {high}]")
+            }
+            Err(why) => self.none(why),
+        };
+        let n = measure.points.len();
+        let values: [(&str, &dyn Display); 6] = [
+            ("measure", &measure.measure),
+            ("n", &n),
+            ("rho", &rho),
+            ("p", &p),
+            ("interval", &interval),
+            ("tau", &tau),
+        ];
+        let note = fill(self.say(w::MEASURE), &values);
+        if measure.points.is_empty() {
+            self.paragraph("", &note);
+        } else {
+            self.figure(&figure, &note);
+        }
+    }
+}
+
+impl Compared {
+    /// Returns whether its tests look in one direction only.
+    #[must_use]
+    pub fn is_one_sided(&self) -> bool {
+        self.side != Alternative::TwoSided
+    }
+
+    /// Returns the smallest difference of interest, as Cliff's delta.
+    #[must_use]
+    pub fn bound(&self) -> f64 {
+        match self.hypothesis.as_ref().map(|it| it.expects) {
+            Some(Expectation::SameWithin(bound)) => bound,
+            _ => SMALLEST,
+        }
+    }
+}
