@@ -122,11 +122,11 @@ impl Data<'_> {
         let mut likelihood = self.likelihood(&point);
         for step in 0..STEPS {
             let (gradient, information) = self.derivatives(&point);
-            let factor = information.cholesky().ok_or(if step == 0 {
-                Undefined::Dependent
-            } else {
-                Undefined::Separated
-            })?;
+            let factor = information.cholesky().ok_or(Undefined::Separated);
+            if step == 0 && !factor.as_ref().is_ok_and(|it| is_full(&information, it)) {
+                return Err(Undefined::Dependent);
+            }
+            let factor = factor?;
             let change = factor.solve_factored(&gradient);
             let gain: f64 = change.iter().zip(&gradient).map(|(a, b)| a * b).sum();
             if gain < 1e-18 * (1.0 + likelihood.abs()) {
@@ -227,6 +227,12 @@ impl Data<'_> {
         }
         (gradient, information)
     }
+}
+
+/// Returns whether no column follows from earlier ones: whether each keeps some of its own information beside them.
+fn is_full(information: &Matrix, factor: &Matrix) -> bool {
+    let share = |at| factor[(at, at)].powi(2) / information[(at, at)];
+    (0..information.rows()).all(|at| share(at) > 1e-9)
 }
 
 fn logistic(x: f64) -> f64 {

@@ -89,11 +89,14 @@ texts! {
     SUPPORTED: "supported", "soutenue";
     NOT_SUPPORTED: "not supported", "non soutenue";
     UNDECIDED: "cannot be decided", "indécidable";
-    SIGNIFICANT: "The test of people’s means is significant.", "Le test des moyennes des personnes est significatif.";
+    SIGNIFICANT: "The test is significant.", "Le test est significatif.";
+    NOT_SIGNIFICANT: "The test is not significant, which does not show the absence of a correlation.", "Le test n’est pas significatif, ce qui ne montre pas l’absence de corrélation.";
+    VERDICT_LINE: "{name}: {verdict}. {because}", "{name} : {verdict}. {because}";
+    RIGHT_SHARE: "right, %", "juste, %";
     WITHIN_BOUNDS: "The interval lies within the smallest difference of interest.", "L’intervalle reste dans la plus petite différence d’intérêt.";
     BEYOND_BOUNDS: "The interval lies beyond the smallest difference of interest.", "L’intervalle dépasse la plus petite différence d’intérêt.";
     OPPOSITE_DIRECTION: "The interval excludes a rise of interest.", "L’intervalle exclut une hausse d’intérêt.";
-    WIDE_INTERVAL: "The answers fit both a difference that matters and none: more participants would decide.", "Les réponses sont compatibles avec une différence notable comme avec aucune : plus de participants trancheraient.";
+    WIDE_INTERVAL: "The interval reaches across the smallest difference of interest: the answers neither show nor exclude a difference that matters.", "L’intervalle chevauche la plus petite différence d’intérêt : les réponses ne montrent ni n’excluent une différence notable.";
     NO_TEST: "There is no test: {why}.", "Il n’y a pas de test : {why}.";
     NEGLIGIBLE: "negligible", "négligeable";
     SMALL: "small", "petit";
@@ -108,6 +111,9 @@ texts! {
     WILCOXON: "Wilcoxon", "Wilcoxon";
     FISHER: "Fisher", "Fisher";
     MCNEMAR: "McNemar", "McNemar";
+    U: "U", "U";
+    W_PLUS: "W+", "W+";
+    B: "first only", "premier seul";
     NOT_A_NUMBER: "a value is not a number", "une valeur n’est pas un nombre";
     EMPTY: "a group is empty", "un groupe est vide";
     TOO_FEW: "there are too few values", "il y a trop peu de valeurs";
@@ -178,6 +184,7 @@ pub fn because(because: Because) -> Text {
         Because::BeyondBounds => BEYOND_BOUNDS,
         Because::OppositeDirection => OPPOSITE_DIRECTION,
         Because::WideInterval => WIDE_INTERVAL,
+        Because::NotSignificant => NOT_SIGNIFICANT,
         Because::NoTest(_) => NO_TEST,
     }
 }
@@ -214,6 +221,17 @@ pub fn test(test: TestName) -> Text {
         TestName::Wilcoxon => WILCOXON,
         TestName::Fisher => FISHER,
         TestName::Mcnemar => MCNEMAR,
+    }
+}
+
+/// Returns the name of the statistic of a test.
+#[must_use]
+pub fn statistic(test: TestName) -> Text {
+    match test {
+        TestName::MannWhitney => U,
+        TestName::Wilcoxon => W_PLUS,
+        TestName::Fisher => ODDS,
+        TestName::Mcnemar => B,
     }
 }
 

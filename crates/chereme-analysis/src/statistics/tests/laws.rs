@@ -205,6 +205,17 @@ fn models_without_one_answer_are_refused() {
         ordinal::fit(&[2, 2], &[vec![0.0], vec![1.0]]),
         Err(Undefined::NoSpread)
     );
+    // Items 0 and 1 belong to one condition, items 2 to 4 to the other: their columns add up to the condition's.
+    let nested: Vec<Vec<f64>> = (0..200)
+        .map(|n| {
+            let item = n % 5;
+            let column = |own: usize| f64::from(u8::from(own == item));
+            let condition = f64::from(u8::from(item > 1));
+            vec![condition, column(1), column(2), column(3), column(4)]
+        })
+        .collect();
+    let answers: Vec<i64> = (0..200).map(|n| 1 + (n * n + 3 * n / 7) % 5).collect();
+    assert_eq!(ordinal::fit(&answers, &nested), Err(Undefined::Dependent));
     let apart: Vec<Vec<f64>> = (0..40).map(|n| vec![f64::from(n / 20)]).collect();
     let answers: Vec<i64> = (0..40).map(|n| 1 + n % 2 + 2 * (n / 20)).collect();
     assert_eq!(ordinal::fit(&answers, &apart), Err(Undefined::Separated));

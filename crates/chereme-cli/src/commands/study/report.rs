@@ -160,7 +160,7 @@ fn conclusions(report: &Report, output: &mut Output) -> Result<()> {
             let verdict = w::verdict(conclusion.verdict).of(language);
             let because = numbers::because(conclusion.because, language);
             let words = fill(
-                "{name}: {verdict}. {because}",
+                w::VERDICT_LINE.of(language),
                 &[
                     ("name", &stated.name),
                     ("verdict", &verdict),

@@ -120,12 +120,12 @@ impl Svg {
 /// Returns the room for labels beside a figure, by the longest of them.
 fn margin<'a>(labels: impl Iterator<Item = &'a str>) -> f64 {
     let longest = labels.map(|it| it.chars().count()).max().unwrap_or(0);
-    (longest as f64 * 7.4 + 18.0).clamp(70.0, 250.0)
+    (longest as f64 * 7.4 + 18.0).clamp(70.0, 270.0)
 }
 
 /// Returns a label that fits into the room for labels.
 fn short(label: &str) -> String {
-    const MOST: usize = 31;
+    const MOST: usize = 34;
     if label.chars().count() <= MOST {
         return label.to_owned();
     }
@@ -149,7 +149,7 @@ pub(super) fn diverging(bars: &[Bar<'_>], legend: &[String], language: Language)
     let mut x = 4.0;
     let mut y = 6.0;
     for (at, text) in legend.iter().enumerate() {
-        let width = 30.0 + text.chars().count() as f64 * 7.0;
+        let width = 30.0 + text.chars().count() as f64 * 6.4;
         if x + width > WIDTH {
             (x, y) = (4.0, y + 22.0);
         }
@@ -291,22 +291,19 @@ pub(super) fn boxes(rows: &[BoxRow<'_>], scale: [i64; 2], language: Language) ->
     svg.finish(w::BOXES.of(language))
 }
 
-/// Draws a dot for each value; dots that would cover each other go down, five at most.
+/// Draws a dot for each value; near values stand in columns of five, side by side around their place.
 fn swarm(svg: &mut Svg, values: &[f64], top: f64, place: &dyn Fn(f64) -> f64) {
-    let (mut last, mut depth) = (f64::NEG_INFINITY, 0_usize);
-    for value in values {
-        let x = place(*value);
-        if x - last < 5.0 {
-            depth += 1;
-        } else {
-            (last, depth) = (x, 0);
+    const STEP: f64 = 5.4;
+    let near = |a: &f64, b: &f64| place(*b) - place(*a) < 2.0;
+    for group in values.chunk_by(near) {
+        let columns = group.len().div_ceil(5);
+        let left = place(group[0]) - STEP * (columns - 1) as f64 / 2.0;
+        for at in 0..group.len() {
+            // Columns are filled row by row, so that the lowest row alone is incomplete.
+            let (row, column) = (at / columns, at % columns);
+            let x = left + STEP * column as f64;
+            svg.dot([x, top + STEP * row as f64], 2.4, "person");
         }
-        let column = (depth / 5) as f64;
-        svg.dot(
-            [last + 2.0 * column, top + 5.0 * (depth % 5) as f64],
-            2.4,
-            "person",
-        );
     }
 }
 
@@ -359,7 +356,7 @@ pub(super) fn shares(rows: &[(&str, &Share)], chance: Option<f64>, language: Lan
 pub(super) fn confusion(table: &Confusion, language: Language) -> String {
     let mut svg = Svg::new();
     let left = margin(table.rows.iter().map(String::as_str));
-    let cell = ((WIDTH - left - 60.0) / table.columns.len().max(1) as f64).clamp(20.0, 56.0);
+    let cell = ((WIDTH - left - 60.0) / table.columns.len().max(1) as f64).clamp(12.0, 56.0);
     let longest = table
         .columns
         .iter()
@@ -382,17 +379,9 @@ pub(super) fn confusion(table: &Confusion, language: Language) -> String {
         let all: usize = counts.iter().sum();
         for (column, count) in counts.iter().enumerate() {
             let (fill, letters) = shade(&BLUES, *count as f64 / all.max(1) as f64);
-            let class = if table.columns[column] == *name {
-                "right"
-            } else {
-                "edge"
-            };
             let x = left + column as f64 * cell;
-            svg.rect(
-                [x, y],
-                [cell, 28.0],
-                &format!("fill=\"{fill}\" class=\"{class}\""),
-            );
+            let style = format!("fill=\"{fill}\" class=\"edge\"");
+            svg.rect([x, y], [cell, 28.0], &style);
             if *count > 0 {
                 let class = if letters == "#fff" {
                     "small mid light"
@@ -404,6 +393,13 @@ pub(super) fn confusion(table: &Confusion, language: Language) -> String {
         }
         let end = left + counts.len() as f64 * cell;
         svg.text([end + 8.0, y + 19.0], "small", &format!("n = {all}"));
+    }
+    // Frames come last, so that no neighbour covers them.
+    for (row, name) in table.rows.iter().enumerate() {
+        if let Some(column) = table.columns.iter().position(|it| it == name) {
+            let at = [left + column as f64 * cell, top + row as f64 * 28.0];
+            svg.rect(at, [cell, 28.0], "class=\"right\"");
+        }
     }
     svg.height = top + table.rows.len() as f64 * 28.0 + 6.0;
     svg.finish(w::CONFUSION.of(language))

@@ -159,10 +159,19 @@ fn of_hypothesis(
         Comparison::Between(selections) | Comparison::Trend(selections) => {
             let group = |selection: &Selection| {
                 let wanted = |it: &Answer| selection.holds(&it.part, &it.item, &it.condition);
-                Answered::of(plan, question, people, label(selection), &wanted)
+                Answered::of(
+                    plan,
+                    question,
+                    people,
+                    label(selection, selections),
+                    &wanted,
+                )
             };
             let groups: Vec<Answered> = selections.iter().map(group).collect();
-            between(question, &groups, &settings, trend)
+            Compared {
+                part: common_part(selections),
+                ..between(question, &groups, &settings, trend)
+            }
         }
         Comparison::Measure(measure) => Compared {
             measure: Some(with_measure(plan, question, measure, people, resampling)),
@@ -180,18 +189,32 @@ fn of_hypothesis(
     compared
 }
 
-/// Returns the words for a selection: its items, conditions and parts, as far as it restricts them.
-fn label(selection: &Selection) -> String {
-    let lists = [&selection.items, &selection.conditions, &selection.parts];
-    let texts = lists
+/// Returns the words for one of several selections: its items, conditions and parts, as far as they differ from others.
+fn label(selection: &Selection, all: &[Selection]) -> String {
+    let lists: [fn(&Selection) -> &Vec<String>; 3] =
+        [|it| &it.items, |it| &it.conditions, |it| &it.parts];
+    let differs = |list: &&fn(&Selection) -> &Vec<String>| {
+        all.len() < 2 || all.iter().any(|it| list(it) != list(selection))
+    };
+    let own = lists
         .iter()
-        .filter(|it| !it.is_empty())
-        .map(|it| it.join(" + "));
-    let texts: Vec<String> = texts.filter(|it| !it.is_empty()).collect();
-    if texts.is_empty() {
+        .filter(differs)
+        .map(|list| list(selection).join(" + "));
+    let own: Vec<String> = own.filter(|it| !it.is_empty()).collect();
+    if own.is_empty() {
         "*".to_owned()
     } else {
-        texts.join(", ")
+        own.join(", ")
+    }
+}
+
+/// Returns the part of the study that all selections name.
+fn common_part(selections: &[Selection]) -> String {
+    match selections {
+        [first, rest @ ..] if rest.iter().all(|it| it.parts == first.parts) => {
+            first.parts.join(" + ")
+        }
+        _ => String::new(),
     }
 }
 
@@ -296,7 +319,7 @@ fn pair(places: [usize; 2], groups: [&Answered; 2], settings: &Settings, resampl
             result: equivalence([ends.low, ends.high], settings.bound)?,
         })
     });
-    let mean = differences.iter().sum::<f64>() / differences.len() as f64;
+    let mean = both.iter().map(|[x, y]| x - y).sum::<f64>() / both.len() as f64;
     Pair {
         groups: places,
         pooled: pooled_test(&first, &second, settings).into(),

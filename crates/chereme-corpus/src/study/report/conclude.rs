@@ -98,7 +98,7 @@ fn of_measure(measure: &MeasureReport, alpha: f64) -> Conclusion {
     };
     match p {
         Ok(p) if p < alpha => verdict(Verdict::Supported, Because::Significant),
-        Ok(_) => verdict(Verdict::Undecided, Because::WideInterval),
+        Ok(_) => verdict(Verdict::Undecided, Because::NotSignificant),
         Err(why) => verdict(Verdict::Undecided, Because::NoTest(why)),
     }
 }

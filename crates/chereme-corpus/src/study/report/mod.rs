@@ -273,7 +273,7 @@ pub struct Compared {
     pub hypothesis: Option<Stated>,
     /// The name of the question.
     pub question: String,
-    /// The part of the study that is compared; empty if a hypothesis selects the trials.
+    /// The part of the study to which all groups belong; empty if there is none.
     pub part: String,
     /// The direction of the tests.
     pub side: Alternative,
@@ -483,6 +483,8 @@ pub enum Because {
     OppositeDirection,
     /// The test is not significant, and an interval reaches beyond a bound.
     WideInterval,
+    /// The test of a correlation is not significant.
+    NotSignificant,
     /// There is no test.
     NoTest(Undefined),
 }

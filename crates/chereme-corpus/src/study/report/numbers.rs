@@ -20,12 +20,15 @@ pub fn number(value: f64, decimals: usize, language: Language) -> String {
     }
 }
 
-/// Returns a share in percent.
+/// Returns a whole share in percent without decimals, another one with one.
 #[must_use]
 pub fn percent(share: f64, language: Language) -> String {
+    let percent = 100.0 * share;
+    let whole = (percent - percent.round()).abs() < 1e-9;
+    let text = number(percent, usize::from(!whole), language);
     match language {
-        Language::French => format!("{}\u{a0}%", number(100.0 * share, 1, language)),
-        Language::English => format!("{}%", number(100.0 * share, 1, language)),
+        Language::French => format!("{text}\u{a0}%"),
+        Language::English => format!("{text}%"),
     }
 }
 

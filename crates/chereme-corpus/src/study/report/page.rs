@@ -61,12 +61,21 @@ impl Page<'_> {
         ));
     }
 
-    /// Puts a table; cells are texts, and an empty title has no words.
+    /// Puts a table; cells are texts. Numbers stand at the right, columns with longer texts at the left.
     fn table(&mut self, titles: &[&str], rows: &[Vec<String>]) {
+        const LONG: usize = 14;
+        let long = |column: usize| {
+            let mut cells = rows.iter().filter_map(|row| row.get(column));
+            cells.any(|cell| cell.chars().count() > LONG)
+        };
+        let classes: Vec<&str> = (0..titles.len())
+            .map(|column| if long(column) { " class=\"words\"" } else { "" })
+            .collect();
         let cells = |tag: &str, cells: &mut dyn Iterator<Item = &str>| {
-            cells.fold(String::new(), |mut row, cell| {
+            let cells = cells.zip(&classes);
+            cells.fold(String::new(), |mut row, (cell, class)| {
                 // Formatting into a string never fails.
-                let _ = write!(row, "<{tag}>{}</{tag}>", escaped(cell));
+                let _ = write!(row, "<{tag}{class}>{}</{tag}>", escaped(cell));
                 row
             })
         };
@@ -131,10 +140,11 @@ impl Page<'_> {
             let words = self.say(w::verdict(conclusion.verdict));
             let text = escaped(self.text_of(&stated.text, ""));
             let expects = escaped(&self.expectation(compared, stated));
+            let found = escaped(&self.key_numbers(compared));
             let because = escaped(&because(conclusion.because, self.language));
             self.put(format!(
                 "<div class=\"card {class}\"><strong>{}</strong> <span class=\"badge\">{mark} {words}</span>\
-                 <p>{text}</p><p class=\"soft\">{expects}. {because}</p></div>",
+                 <p>{text}</p><p class=\"soft\">{expects}. {because}</p><p class=\"soft\">{found}</p></div>",
                 escaped(&stated.name)
             ));
         }
@@ -144,7 +154,7 @@ impl Page<'_> {
     /// Returns what a hypothesis expects, of which groups, and its level.
     fn expectation(&self, compared: &Compared, stated: &Stated) -> String {
         let alpha = number(stated.alpha, 3, self.language);
-        let alpha = alpha.trim_end_matches('0');
+        let alpha = alpha.trim_end_matches('0').trim_end_matches(['.', ',']);
         let level = fill(self.say(w::ALPHA), &[("alpha", &alpha)]);
         let expects = match (&compared.measure, stated.expects) {
             (Some(it), Expectation::Difference) => fill(
@@ -161,8 +171,18 @@ impl Page<'_> {
             (None, Expectation::Difference) => self.say(w::EXPECTS_DIFFERENCE).to_owned(),
         };
         let groups: Vec<&str> = compared.groups.iter().map(|it| it.label.as_str()).collect();
-        let groups = groups.join(" / ");
-        let parts = [compared.question.as_str(), &groups, &expects, &level];
+        let groups = groups.join(if compared.is_one_sided() {
+            " → "
+        } else {
+            " / "
+        });
+        let parts = [
+            compared.question.as_str(),
+            &compared.part,
+            &groups,
+            &expects,
+            &level,
+        ];
         let parts: Vec<&str> = parts.into_iter().filter(|it| !it.is_empty()).collect();
         parts.join(" · ")
     }

@@ -321,8 +321,8 @@ fn test_cells(test: &Outcome<PairTest>) -> Vec<String> {
         test.n[1].to_string(),
         optional(test.statistic),
         word(&test.method),
-        test.p.to_string(),
-        test.p_holm.to_string(),
+        exact(test.p),
+        exact(test.p_holm),
     ]
 }
 
@@ -340,7 +340,16 @@ fn word(value: &impl Serialize) -> String {
 }
 
 fn optional(value: Option<f64>) -> String {
-    value.map_or_else(String::new, |it| it.to_string())
+    value.map_or_else(String::new, exact)
+}
+
+/// Returns a number with all its digits; a small one with an exponent.
+fn exact(value: f64) -> String {
+    if value != 0.0 && value.abs() < 1e-6 {
+        format!("{value:e}")
+    } else {
+        value.to_string()
+    }
 }
 
 fn csv_of((titles, rows): &Table) -> Result<Vec<u8>> {

@@ -5,7 +5,7 @@ use std::fmt::Display;
 use chereme_analysis::statistics::{Alternative, Undefined};
 
 use super::Page;
-use crate::study::plan::Expectation;
+use crate::study::plan::{Expectation, QuestionKind};
 use crate::study::report::charts;
 use crate::study::report::compare::{ALPHA, SMALLEST};
 use crate::study::report::numbers::{self, number, percent};
@@ -13,6 +13,57 @@ use crate::study::report::{Compared, Ends, MeasureReport, Outcome, Pair, PairTes
 use crate::words::{fill, reporting as w};
 
 impl Page<'_> {
+    /// Returns the numbers that a conclusion rests on: effects with intervals and the p of people's means.
+    pub(super) fn key_numbers(&self, compared: &Compared) -> String {
+        let number = |value: f64| number(value, 3, self.language);
+        let p = |p: f64| self.equals_p(p);
+        let ends = |it: &Ends| format!("[{}; {}]", number(it.low), number(it.high));
+        if let Some(measure) = &compared.measure {
+            let rho = measure.spearman.found();
+            let rho = rho.map(|it| (number(it.coefficient), it.p.map_or_else(String::new, p)));
+            let Some((rho, p)) = rho else {
+                return String::new();
+            };
+            let ends = measure.interval.found().map_or_else(String::new, ends);
+            return format!(
+                "rho {rho} {ends} · {p} · n\u{a0}=\u{a0}{}",
+                measure.points.len()
+            );
+        }
+        if let Some(overall) = &compared.overall {
+            let found = overall.people.found();
+            return found.map_or_else(String::new, |it| {
+                format!(
+                    "Friedman {} · W {} · n\u{a0}=\u{a0}{}",
+                    p(it.p),
+                    number(it.w),
+                    it.n
+                )
+            });
+        }
+        let pair = |pair: &Pair| {
+            let effect = pair.effect.found()?;
+            let interval = effect.interval.found().map_or_else(String::new, ends);
+            let test = pair.people.found().map_or_else(String::new, |it| {
+                let name = self.say(w::test(it.test));
+                format!(" · {name} {} · n\u{a0}=\u{a0}{}", p(it.p), it.n[0])
+            });
+            Some(format!("delta {} {interval}{test}", number(effect.delta)))
+        };
+        let pairs: Vec<String> = compared.pairs.iter().filter_map(pair).collect();
+        pairs.join("; ")
+    }
+
+    /// Returns `p = 0.012` or `p < 0.0001`, without a break inside.
+    fn equals_p(&self, p: f64) -> String {
+        let text = numbers::p(p, self.language).replace(' ', "\u{a0}");
+        if text.starts_with('<') {
+            format!("p\u{a0}{text}")
+        } else {
+            format!("p\u{a0}=\u{a0}{text}")
+        }
+    }
+
     pub(super) fn comparisons(&mut self) {
         self.heading(2, self.say(w::COMPARISONS));
         for compared in &self.report.comparisons {
@@ -45,23 +96,7 @@ impl Page<'_> {
             w::TWO_SIDED
         };
         self.paragraph("soft", self.say(side));
-        let number = |value: f64, decimals| number(value, decimals, self.language);
-        let rows = compared.groups.iter().map(|it| {
-            let mut row = vec![it.label.clone(), it.people.to_string()];
-            match &it.description {
-                Outcome::Found(own) => row.extend([
-                    own.n.to_string(),
-                    number(own.mean, 3),
-                    own.sd.map_or_else(String::new, |sd| number(sd, 3)),
-                    number(own.median, 1),
-                ]),
-                Outcome::Nothing { why } => row.push(self.say(w::undefined(*why)).to_owned()),
-            }
-            row
-        });
-        let rows: Vec<Vec<String>> = rows.collect();
-        let titles = [w::GROUP, w::PERSONS, w::ANSWERS, w::MEAN, w::SD, w::MEDIAN];
-        self.table(&titles.map(|it| self.say(it)), &rows);
+        self.group_table(compared);
         if let Some(overall) = &compared.overall {
             let p = |found: Result<f64, Undefined>| match found {
                 Ok(p) => format!("p {}", numbers::p(p, self.language)),
@@ -76,6 +111,41 @@ impl Page<'_> {
             self.paragraph("", &words);
         }
         self.pairs(compared);
+    }
+
+    fn group_table(&mut self, compared: &Compared) {
+        let question = self
+            .report
+            .questions
+            .iter()
+            .find(|it| it.name == compared.question);
+        let choice = question.is_some_and(|it| matches!(it.kind, QuestionKind::Choice { .. }));
+        let number = |value: f64, decimals| number(value, decimals, self.language);
+        let rows = compared.groups.iter().map(|it| {
+            let mut row = vec![it.label.clone(), it.people.to_string()];
+            match &it.description {
+                Outcome::Found(own) if choice => {
+                    row.extend([own.n.to_string(), number(100.0 * own.mean, 1)]);
+                }
+                Outcome::Found(own) => row.extend([
+                    own.n.to_string(),
+                    number(own.mean, 3),
+                    own.sd.map_or_else(String::new, |sd| number(sd, 3)),
+                    number(own.median, 1),
+                ]),
+                Outcome::Nothing { why } => row.push(self.say(w::undefined(*why)).to_owned()),
+            }
+            row
+        });
+        let rows: Vec<Vec<String>> = rows.collect();
+        let mut titles = vec![w::GROUP, w::PERSONS, w::ANSWERS];
+        if choice {
+            titles.push(w::RIGHT_SHARE);
+        } else {
+            titles.extend([w::MEAN, w::SD, w::MEDIAN]);
+        }
+        let titles: Vec<&str> = titles.into_iter().map(|it| self.say(it)).collect();
+        self.table(&titles, &rows);
     }
 
     fn none(&self, why: Undefined) -> String {
@@ -113,15 +183,20 @@ impl Page<'_> {
             let note = fill(self.say(w::EFFECTS_NOTE), &values);
             self.figure(&figure, &note);
         }
+        let several = compared.pairs.len() > 1;
         let rows: Vec<Vec<String>> = compared
             .pairs
             .iter()
-            .map(|it| self.pair_row(it, name(it)))
+            .map(|it| self.pair_row(it, name(it), several))
             .collect();
         let bound = number(bound, 3, self.language);
         let sameness = fill(self.say(w::SAMENESS), &[("bound", &bound)]);
-        let mut titles = vec![self.say(w::PAIR), self.say(w::POOLED), self.say(w::P_HOLM)];
-        titles.extend([w::BY_PERSON, w::P_HOLM, w::DIFFERENCE, w::SIZE].map(|it| self.say(it)));
+        let mut titles = vec![self.say(w::PAIR)];
+        for title in [w::POOLED, w::BY_PERSON] {
+            titles.push(self.say(title));
+            titles.extend(several.then(|| self.say(w::P_HOLM)));
+        }
+        titles.extend([w::DIFFERENCE, w::SIZE].map(|it| self.say(it)));
         titles.push(&sameness);
         self.table(&titles, &rows);
         let alpha = compared.hypothesis.as_ref().map_or(ALPHA, |it| it.alpha);
@@ -136,13 +211,16 @@ impl Page<'_> {
         }
     }
 
-    fn pair_row(&self, pair: &Pair, name: String) -> Vec<String> {
+    /// Returns the row of a pair; p corrected for their number have a column if there are `several` pairs.
+    fn pair_row(&self, pair: &Pair, name: String, several: bool) -> Vec<String> {
         let mut row = vec![name];
         for test in [&pair.pooled, &pair.people] {
-            match test.result() {
-                Ok(it) => row.extend([self.test(it), numbers::p(it.p_holm, self.language)]),
-                Err(why) => row.extend([self.none(why), String::new()]),
-            }
+            let (text, holm) = match test.result() {
+                Ok(it) => (self.test(it), numbers::p(it.p_holm, self.language)),
+                Err(why) => (self.none(why), String::new()),
+            };
+            row.push(text);
+            row.extend(several.then_some(holm));
         }
         let difference = pair.mean_difference;
         row.push(difference.map_or_else(String::new, |it| number(it, 3, self.language)));
@@ -163,24 +241,24 @@ impl Page<'_> {
         row
     }
 
-    /// Returns a test with its numbers: `Wilcoxon 812.5, n 57, p 0.031 (exact)`.
+    /// Returns a test with its numbers: `Wilcoxon, W+ = 812.5, n = 57, p = 0.031, exact`.
     fn test(&self, test: &PairTest) -> String {
         let statistic = test.statistic.map_or_else(String::new, |it| {
             let decimals = if it.fract() == 0.0 { 0 } else { 2 };
-            format!(" {}", number(it, decimals, self.language))
+            let symbol = self.say(w::statistic(test.test));
+            format!("{symbol} = {}, ", number(it, decimals, self.language)).replace(' ', "\u{a0}")
         });
-        let n = if test.n[0] == test.n[1] {
-            test.n[0].to_string()
-        } else {
-            format!("{}, {}", test.n[0], test.n[1])
+        let statistic = statistic.replace(",\u{a0}", ", ");
+        let n = match test.n {
+            [n, m] if n == m => n.to_string(),
+            [n, m] => format!("{n}\u{a0}+\u{a0}{m}"),
         };
-        let p = numbers::p(test.p, self.language);
-        let equals = if p.starts_with('<') { "" } else { "= " };
-        let (name, method) = (
-            self.say(w::test(test.test)),
-            self.say(w::method(test.method)),
-        );
-        format!("{name}{statistic}, n = {n}, p {equals}{p} ({method})")
+        let name = self.say(w::test(test.test));
+        let method = self.say(w::method(test.method));
+        format!(
+            "{name}, {statistic}n\u{a0}=\u{a0}{n}, {}, {method}",
+            self.equals_p(test.p)
+        )
     }
 
     fn measure(&mut self, measure: &MeasureReport, question: &str) {
