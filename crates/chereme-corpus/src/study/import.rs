@@ -18,6 +18,7 @@ use crate::error::{Error, Result};
 use crate::import::{FileStatus, ReportFinding};
 use crate::paths::legible;
 use crate::progress::{Progress, Step, Unit};
+use crate::words::counted;
 
 /// The size of the largest file of answers, in bytes.
 const LARGEST: u64 = 32 << 20;
@@ -100,11 +101,8 @@ impl Corpus {
                     })?;
                     work.file(path, &mut report)?;
                 }
-                let summary = format!(
-                    "{}, {} participants",
-                    plan.name,
-                    report.added + report.replaced
-                );
+                let people = counted(report.added + report.replaced, "participants");
+                let summary = format!("{}, {people}", plan.name);
                 Ok((report, summary))
             })
     }

@@ -166,9 +166,14 @@ impl Corpus {
         progress: &mut Progress<'_>,
         mut take: impl FnMut(&[usize], StudyClip) -> Result<()>,
     ) -> Result<()> {
-        let mut clips: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut clips: Vec<(&str, Vec<usize>)> = Vec::new();
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for (at, trial) in plan.trials.iter().enumerate() {
-            clips.entry(&trial.clip).or_default().push(at);
+            let place = *places.entry(&trial.clip).or_insert(clips.len());
+            if place == clips.len() {
+                clips.push((&trial.clip, Vec::new()));
+            }
+            clips[place].1.push(at);
         }
         let mut errors = Vec::new();
         let total = Some(clips.len() as u64);
