@@ -11,6 +11,7 @@
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `long`, `rows` | answers from files, and as a table |
+//! | `stored` | plans and participants as rows of the database |
 
 pub mod answers;
 mod build;
@@ -21,6 +22,7 @@ pub mod order;
 pub mod plan;
 mod request;
 mod rows;
+mod stored;
 mod texts;
 
 use std::collections::BTreeMap;
@@ -89,7 +91,7 @@ impl Corpus {
         check::check(plan)?;
         self.study_clips(plan, progress, |_, _| Ok(()))?;
         let replaced = self.store.operation("plan study", |connection| {
-            let replaced = match db::plan(connection, &plan.name)? {
+            let replaced = match stored::plan(connection, &plan.name)? {
                 Some((id, _)) if db::participant_count(connection, id)? > 0 => {
                     let error = Error::wrong(format!(
                         "people have answered the study {:?}, so that its plan cannot change",
@@ -101,11 +103,11 @@ impl Corpus {
                 }
                 Some((_, old)) if old == *plan => true,
                 Some((id, _)) => {
-                    db::replace(connection, id, plan)?;
+                    db::replace(connection, id, &stored::row(plan))?;
                     true
                 }
                 None => {
-                    db::insert(connection, plan)?;
+                    db::insert(connection, &stored::row(plan))?;
                     false
                 }
             };
@@ -125,7 +127,7 @@ impl Corpus {
     pub fn study(&self, name: &str) -> Result<Study> {
         let connection = self.store.read();
         let (id, plan) = found(connection, name)?;
-        let participants = db::participants(connection, id, &plan, None)?;
+        let participants = stored::participants(connection, id, &plan, None)?;
         Ok(Study { plan, participants })
     }
 
@@ -148,13 +150,14 @@ impl Corpus {
     pub fn forget_participant(&mut self, study: &str, code: &str) -> Result<()> {
         self.store.operation("forget participant", |connection| {
             let (id, plan) = found(connection, study)?;
-            let Some((row, _)) = db::participant(connection, id, code.trim())? else {
+            let people = db::participants(connection, id, Some(code.trim()))?;
+            let Some((row, _)) = people.first() else {
                 let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
                 return Err(error.advise(Remedy::command(
                     "`chereme study answers CORPUS NAME --to FILE.csv` lists the codes",
                 )));
             };
-            db::delete_participant(connection, row)?;
+            db::delete_participant(connection, *row)?;
             Ok(((), plan.name))
         })
     }
@@ -233,7 +236,7 @@ impl Corpus {
 
 /// Returns the row and plan of a study.
 fn found(connection: &Connection, name: &str) -> Result<(i64, Plan)> {
-    if let Some(found) = db::plan(connection, name.trim())? {
+    if let Some(found) = stored::plan(connection, name.trim())? {
         return Ok(found);
     }
     let names = db::names(connection)?;
