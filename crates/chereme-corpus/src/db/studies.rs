@@ -1,14 +1,48 @@
 //! Rows of perceptual studies, their participants and answers.
 
-use rusqlite::types::Type;
-use rusqlite::{Connection, OptionalExtension, Row, params};
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use rusqlite::{Connection, OptionalExtension, params};
 
-use super::damaged;
 use crate::error::Result;
-use crate::study::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Participant};
-use crate::study::plan::{Plan, Role};
+
+/// A study as stored.
+pub(crate) struct StudyRow {
+    pub(crate) name: String,
+    /// The plan as JSON.
+    pub(crate) plan: String,
+    pub(crate) plan_sha256: String,
+}
+
+/// A participant as stored, without the answers; the last three are JSON.
+pub(crate) struct ParticipantRow {
+    pub(crate) code: String,
+    pub(crate) started_day: String,
+    pub(crate) language: String,
+    pub(crate) seed: u32,
+    pub(crate) finished: bool,
+    pub(crate) profile: String,
+    pub(crate) consent: String,
+    pub(crate) device: String,
+}
+
+/// An answer as stored.
+pub(crate) struct AnswerRow {
+    pub(crate) n: u32,
+    pub(crate) block: u32,
+    pub(crate) part: String,
+    pub(crate) item: String,
+    pub(crate) condition: String,
+    pub(crate) role: String,
+    pub(crate) question: String,
+    pub(crate) low: Option<i64>,
+    pub(crate) high: Option<i64>,
+    pub(crate) value: Option<i64>,
+    pub(crate) choice: Option<String>,
+    pub(crate) right: Option<bool>,
+    pub(crate) plays: u32,
+    pub(crate) ms: u32,
+    pub(crate) hidden: u32,
+    pub(crate) slow: u32,
+}
 
 /// Returns the names of all studies.
 pub(crate) fn names(connection: &Connection) -> Result<Vec<String>> {
@@ -17,33 +51,28 @@ pub(crate) fn names(connection: &Connection) -> Result<Vec<String>> {
     Ok(names.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Returns the row and plan of the study of that name.
-pub(crate) fn plan(connection: &Connection, name: &str) -> Result<Option<(i64, Plan)>> {
-    let found: Option<(i64, String)> = connection
+/// Returns the row number and plan, as JSON, of the study of that name.
+pub(crate) fn plan(connection: &Connection, name: &str) -> Result<Option<(i64, String)>> {
+    let found = connection
         .prepare_cached("SELECT id, plan FROM study WHERE name = ?1")?
         .query_row([name], |row| Ok((row.get(0)?, row.get(1)?)))
         .optional()?;
-    let Some((id, json)) = found else {
-        return Ok(None);
-    };
-    let plan = serde_json::from_str(&json)
-        .map_err(|error| damaged(format!("study {name}"), error.to_string()))?;
-    Ok(Some((id, plan)))
+    Ok(found)
 }
 
-/// Adds a study, and returns its row.
-pub(crate) fn insert(connection: &Connection, plan: &Plan) -> Result<i64> {
+/// Adds a study, and returns its row number.
+pub(crate) fn insert(connection: &Connection, it: &StudyRow) -> Result<i64> {
     connection
         .prepare_cached("INSERT INTO study (name, plan, plan_sha256) VALUES (?1, ?2, ?3)")?
-        .execute(params![plan.name, json(plan), plan.sha256()])?;
+        .execute(params![it.name, it.plan, it.plan_sha256])?;
     Ok(connection.last_insert_rowid())
 }
 
 /// Replaces the plan of a study.
-pub(crate) fn replace(connection: &Connection, id: i64, plan: &Plan) -> Result<()> {
+pub(crate) fn replace(connection: &Connection, id: i64, it: &StudyRow) -> Result<()> {
     connection
         .prepare_cached("UPDATE study SET plan = ?2, plan_sha256 = ?3 WHERE id = ?1")?
-        .execute(params![id, json(plan), plan.sha256()])?;
+        .execute(params![id, it.plan, it.plan_sha256])?;
     Ok(())
 }
 
@@ -67,61 +96,50 @@ pub(crate) fn participant_count(connection: &Connection, study: i64) -> Result<u
     Ok(u64::try_from(count).unwrap_or_default())
 }
 
-/// Returns the participants of a study with their answers, by code; only the one with that code, if one is given.
+/// Returns the participants of a study with their row numbers, by code; only the one with that code, if one is given.
 pub(crate) fn participants(
     connection: &Connection,
     study: i64,
-    plan: &Plan,
     code: Option<&str>,
-) -> Result<Vec<Participant>> {
+) -> Result<Vec<(i64, ParticipantRow)>> {
     let mut statement = connection.prepare_cached(
         "SELECT id, code, started_day, language, seed, finished, profile, consent, device
          FROM study_participant WHERE study_id = ?1 AND (?2 IS NULL OR code = ?2) ORDER BY code",
     )?;
-    let sha256 = plan.sha256();
     let rows = statement.query_map(params![study, code], |row| {
-        let head = Participant {
-            format: ANSWERS_FORMAT.to_owned(),
-            version: ANSWERS_VERSION,
-            study: plan.name.clone(),
-            plan_sha256: sha256.clone(),
+        let it = ParticipantRow {
             code: row.get(1)?,
             started_day: row.get(2)?,
             language: row.get(3)?,
             seed: row.get(4)?,
             finished: row.get(5)?,
-            profile: parsed(row, 6)?,
-            consent: parsed(row, 7)?,
-            device: parsed(row, 8)?,
-            answers: Vec::new(),
+            profile: row.get(6)?,
+            consent: row.get(7)?,
+            device: row.get(8)?,
         };
-        Ok((row.get::<_, i64>(0)?, head))
+        Ok((row.get(0)?, it))
     })?;
-    let mut found = rows.collect::<rusqlite::Result<Vec<_>>>()?;
-    for (id, head) in &mut found {
-        head.answers = answers(connection, *id)?;
-    }
-    Ok(found.into_iter().map(|(_, head)| head).collect())
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
 /// Returns the answers of a participant, in the order in which they were given.
-fn answers(connection: &Connection, participant: i64) -> Result<Vec<Answer>> {
+pub(crate) fn answers(connection: &Connection, participant: i64) -> Result<Vec<AnswerRow>> {
     let mut statement = connection.prepare_cached(
-        "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right, plays, ms, hidden, slow
+        "SELECT n, block, part, item, condition, role, question, low, high, value, choice, right,
+             plays, ms, hidden, slow
          FROM study_answer WHERE participant_id = ?1 ORDER BY id",
     )?;
     let rows = statement.query_map([participant], |row| {
-        let (low, high): (Option<i64>, Option<i64>) = (row.get(7)?, row.get(8)?);
-        let role: String = row.get(5)?;
-        Ok(Answer {
+        Ok(AnswerRow {
             n: row.get(0)?,
             block: row.get(1)?,
             part: row.get(2)?,
             item: row.get(3)?,
             condition: row.get(4)?,
-            role: Role::named(&role).unwrap_or_default(),
+            role: row.get(5)?,
             question: row.get(6)?,
-            scale: low.zip(high).map(|(low, high)| [low, high]),
+            low: row.get(7)?,
+            high: row.get(8)?,
             value: row.get(9)?,
             choice: row.get(10)?,
             right: row.get(11)?,
@@ -134,24 +152,12 @@ fn answers(connection: &Connection, participant: i64) -> Result<Vec<Answer>> {
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Returns the row of a participant, and whether the questionnaire was finished.
-pub(crate) fn participant(
-    connection: &Connection,
-    study: i64,
-    code: &str,
-) -> Result<Option<(i64, bool)>> {
-    let sql = "SELECT id, finished FROM study_participant WHERE study_id = ?1 AND code = ?2";
-    let mut statement = connection.prepare_cached(sql)?;
-    let found = statement.query_row(params![study, code], |row| Ok((row.get(0)?, row.get(1)?)));
-    Ok(found.optional()?)
-}
-
-/// Adds a participant with all answers.
+/// Adds a participant, and returns the row number.
 pub(crate) fn insert_participant(
     connection: &Connection,
     study: i64,
-    it: &Participant,
-) -> Result<()> {
+    it: &ParticipantRow,
+) -> Result<i64> {
     connection
         .prepare_cached(
             "INSERT INTO study_participant
@@ -165,37 +171,44 @@ pub(crate) fn insert_participant(
             it.language,
             it.seed,
             it.finished,
-            json(&it.profile),
-            json(&it.consent),
-            json(&it.device),
+            it.profile,
+            it.consent,
+            it.device,
         ])?;
-    let participant = connection.last_insert_rowid();
-    let mut statement = connection.prepare_cached(
-        "INSERT INTO study_answer (participant_id, n, block, part, item, condition, role, question,
-             low, high, value, choice, right, plays, ms, hidden, slow)
-         VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-    )?;
-    for answer in &it.answers {
-        statement.execute(params![
+    Ok(connection.last_insert_rowid())
+}
+
+/// Adds an answer of a participant.
+pub(crate) fn insert_answer(
+    connection: &Connection,
+    participant: i64,
+    it: &AnswerRow,
+) -> Result<()> {
+    connection
+        .prepare_cached(
+            "INSERT INTO study_answer (participant_id, n, block, part, item, condition, role, question,
+                 low, high, value, choice, right, plays, ms, hidden, slow)
+             VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
+        )?
+        .execute(params![
             participant,
-            answer.n,
-            answer.block,
-            answer.part,
-            answer.item,
-            answer.condition,
-            answer.role.name(),
-            answer.question,
-            answer.scale.map(|it| it[0]),
-            answer.scale.map(|it| it[1]),
-            answer.value,
-            answer.choice,
-            answer.right,
-            answer.plays,
-            answer.ms,
-            answer.hidden,
-            answer.slow,
+            it.n,
+            it.block,
+            it.part,
+            it.item,
+            it.condition,
+            it.role,
+            it.question,
+            it.low,
+            it.high,
+            it.value,
+            it.choice,
+            it.right,
+            it.plays,
+            it.ms,
+            it.hidden,
+            it.slow,
         ])?;
-    }
     Ok(())
 }
 
@@ -208,17 +221,4 @@ pub(crate) fn delete_participant(connection: &Connection, id: i64) -> Result<()>
         connection.prepare_cached(sql)?.execute([id])?;
     }
     Ok(())
-}
-
-/// Returns a value as JSON.
-fn json(value: &impl Serialize) -> String {
-    serde_json::to_string(value).unwrap_or_else(|_| "{}".to_owned())
-}
-
-/// Reads a column with JSON.
-fn parsed<T: DeserializeOwned>(row: &Row<'_>, column: usize) -> rusqlite::Result<T> {
-    let text: String = row.get(column)?;
-    serde_json::from_str(&text).map_err(|error| {
-        rusqlite::Error::FromSqlConversionFailure(column, Type::Text, Box::new(error))
-    })
 }

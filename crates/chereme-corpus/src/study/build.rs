@@ -64,6 +64,8 @@ pub struct Questionnaire {
     pub orders: usize,
     /// Pictures that the plan names and that are not in the folder yet.
     pub missing: Vec<PathBuf>,
+    /// Clips that move exactly alike though they are written differently, so that nobody can see a difference.
+    pub alike: Vec<[String; 2]>,
 }
 
 impl Corpus {
@@ -172,6 +174,7 @@ impl Corpus {
             bytes,
             orders: rows.len(),
             missing: missing(plan, &media),
+            alike: alike(plan, &films),
         })
     }
 }
@@ -252,6 +255,21 @@ fn missing(plan: &Plan, media: &Path) -> Vec<PathBuf> {
         .map(|it| media.join(it))
         .collect();
     pictures.into_iter().filter(|it| !it.exists()).collect()
+}
+
+/// Returns the pairs of clips that gave the same film.
+fn alike(plan: &Plan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
+    let mut first: BTreeMap<&str, &str> = BTreeMap::new();
+    let mut pairs = BTreeSet::new();
+    for (at, trial) in plan.trials.iter().enumerate() {
+        if let Some(film) = films.get(&at) {
+            let clip = *first.entry(film).or_insert(&trial.clip);
+            if clip != trial.clip {
+                pairs.insert([clip.to_owned(), trial.clip.clone()]);
+            }
+        }
+    }
+    pairs.into_iter().collect()
 }
 
 /// Returns the page. What participants should not be led by, such as right answers, hypotheses and recipes, is not in it.

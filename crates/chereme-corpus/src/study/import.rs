@@ -11,13 +11,14 @@ use serde::Serialize;
 
 use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Participant};
 use super::plan::{Plan, QuestionKind};
-use super::{found, long};
+use super::{found, long, stored};
 use crate::Corpus;
 use crate::db::studies as db;
 use crate::error::{Error, Result};
 use crate::import::{FileStatus, ReportFinding};
 use crate::paths::legible;
 use crate::progress::{Progress, Step, Unit};
+use crate::words::counted;
 
 /// The size of the largest file of answers, in bytes.
 const LARGEST: u64 = 32 << 20;
@@ -100,11 +101,8 @@ impl Corpus {
                     })?;
                     work.file(path, &mut report)?;
                 }
-                let summary = format!(
-                    "{}, {} participants",
-                    plan.name,
-                    report.added + report.replaced
-                );
+                let people = counted(report.added + report.replaced, "participants");
+                let summary = format!("{}, {people}", plan.name);
                 Ok((report, summary))
             })
     }
@@ -284,18 +282,18 @@ impl Work<'_> {
         }
         self.profile(&mut person, findings);
         self.answers(&mut person, &lines, findings);
-        let known = db::participant(self.connection, self.study, &person.code)?;
-        let Some((row, finished)) = known else {
-            db::insert_participant(self.connection, self.study, &person)?;
+        let code = Some(person.code.as_str());
+        let known = db::participants(self.connection, self.study, code)?;
+        let Some((row, finished)) = known.first().map(|(row, it)| (*row, it.finished)) else {
+            stored::insert(self.connection, self.study, &person)?;
             return Ok((person, Became::Added));
         };
-        let code = Some(person.code.as_str());
-        let stored = db::participants(self.connection, self.study, self.plan, code)?;
-        let stored = stored.into_iter().next();
-        if stored.as_ref() == Some(&person) {
+        let before = stored::participants(self.connection, self.study, self.plan, code)?;
+        let before = before.into_iter().next();
+        if before.as_ref() == Some(&person) {
             return Ok((person, Became::Unchanged));
         }
-        let earlier = stored.map_or(0, |it| it.answers.len());
+        let earlier = before.map_or(0, |it| it.answers.len());
         if finished {
             let message = format!(
                 "the participant {:?} has finished before with other answers, which stay",
@@ -316,7 +314,7 @@ impl Work<'_> {
             return Ok((person, Became::Refused));
         }
         db::delete_participant(self.connection, row)?;
-        db::insert_participant(self.connection, self.study, &person)?;
+        stored::insert(self.connection, self.study, &person)?;
         Ok((person, Became::Replaced))
     }
 
@@ -492,7 +490,11 @@ fn day(text: &str) -> String {
     match parts.as_slice() {
         [year, month, day] if (year.len(), month.len(), day.len()) == (4, 2, 2) => {
             let whole = digits(year) && digits(month) && digits(day);
-            whole.then(|| text.to_owned()).unwrap_or_default()
+            if whole {
+                text.to_owned()
+            } else {
+                String::new()
+            }
         }
         _ => String::new(),
     }

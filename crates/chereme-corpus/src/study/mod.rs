@@ -11,6 +11,7 @@
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `long`, `rows` | answers from files, and as a table |
+//! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
 pub mod answers;
@@ -23,6 +24,7 @@ pub mod plan;
 pub mod report;
 mod request;
 mod rows;
+mod stored;
 mod texts;
 
 use std::collections::BTreeMap;
@@ -91,7 +93,7 @@ impl Corpus {
         check::check(plan)?;
         self.study_clips(plan, progress, |_, _| Ok(()))?;
         let replaced = self.store.operation("plan study", |connection| {
-            let replaced = match db::plan(connection, &plan.name)? {
+            let replaced = match stored::plan(connection, &plan.name)? {
                 Some((id, _)) if db::participant_count(connection, id)? > 0 => {
                     let error = Error::wrong(format!(
                         "people have answered the study {:?}, so that its plan cannot change",
@@ -103,11 +105,11 @@ impl Corpus {
                 }
                 Some((_, old)) if old == *plan => true,
                 Some((id, _)) => {
-                    db::replace(connection, id, plan)?;
+                    db::replace(connection, id, &stored::row(plan))?;
                     true
                 }
                 None => {
-                    db::insert(connection, plan)?;
+                    db::insert(connection, &stored::row(plan))?;
                     false
                 }
             };
@@ -127,7 +129,7 @@ impl Corpus {
     pub fn study(&self, name: &str) -> Result<Study> {
         let connection = self.store.read();
         let (id, plan) = found(connection, name)?;
-        let participants = db::participants(connection, id, &plan, None)?;
+        let participants = stored::participants(connection, id, &plan, None)?;
         Ok(Study { plan, participants })
     }
 
@@ -150,13 +152,14 @@ impl Corpus {
     pub fn forget_participant(&mut self, study: &str, code: &str) -> Result<()> {
         self.store.operation("forget participant", |connection| {
             let (id, plan) = found(connection, study)?;
-            let Some((row, _)) = db::participant(connection, id, code.trim())? else {
+            let people = db::participants(connection, id, Some(code.trim()))?;
+            let Some((row, _)) = people.first() else {
                 let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
                 return Err(error.advise(Remedy::command(
                     "`chereme study answers CORPUS NAME --to FILE.csv` lists the codes",
                 )));
             };
-            db::delete_participant(connection, row)?;
+            db::delete_participant(connection, *row)?;
             Ok(((), plan.name))
         })
     }
@@ -168,9 +171,14 @@ impl Corpus {
         progress: &mut Progress<'_>,
         mut take: impl FnMut(&[usize], StudyClip) -> Result<()>,
     ) -> Result<()> {
-        let mut clips: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        let mut clips: Vec<(&str, Vec<usize>)> = Vec::new();
+        let mut places: BTreeMap<&str, usize> = BTreeMap::new();
         for (at, trial) in plan.trials.iter().enumerate() {
-            clips.entry(&trial.clip).or_default().push(at);
+            let place = *places.entry(&trial.clip).or_insert(clips.len());
+            if place == clips.len() {
+                clips.push((&trial.clip, Vec::new()));
+            }
+            clips[place].1.push(at);
         }
         let mut errors = Vec::new();
         let total = Some(clips.len() as u64);
@@ -230,7 +238,7 @@ impl Corpus {
 
 /// Returns the row and plan of a study.
 fn found(connection: &Connection, name: &str) -> Result<(i64, Plan)> {
-    if let Some(found) = db::plan(connection, name.trim())? {
+    if let Some(found) = stored::plan(connection, name.trim())? {
         return Ok(found);
     }
     let names = db::names(connection)?;

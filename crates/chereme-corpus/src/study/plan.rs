@@ -125,10 +125,6 @@ impl Role {
     }
 }
 
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "the form that serde asks for"
-)]
 fn is_main(role: &Role) -> bool {
     *role == Role::Main
 }
@@ -201,10 +197,6 @@ pub enum Viewing {
     Second,
 }
 
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "the form that serde asks for"
-)]
 fn is_first(after: &Viewing) -> bool {
     *after == Viewing::First
 }

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use chereme_sign::Remedy;
+use chereme_sign::text::fold;
 
 use super::plan::{
     ChoiceOption, Consent, Design, PLAN_FORMAT, PLAN_VERSION, Plan, Question, QuestionKind, Role,
@@ -148,7 +149,8 @@ fn ends(text: &str) -> Option<(i64, i64)> {
     Some((low.trim().parse().ok()?, high.trim().parse().ok()?))
 }
 
-/// Returns a choice of words; the word `items` stands for all items that the question is asked about.
+/// Returns a choice of words; the word `items` stands for all items that the question is asked about, which then
+/// stand among the others in the order of the alphabet.
 fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind {
     let mut names: Vec<String> = Vec::new();
     let mut add = |name: String| {
@@ -157,11 +159,18 @@ fn choice<'a>(text: &str, items: impl Iterator<Item = &'a str>) -> QuestionKind 
         }
     };
     let items: Vec<&str> = items.collect();
+    let mut mixed = false;
     for word in words(text) {
         match word.as_str() {
-            "items" => items.iter().for_each(|item| add((*item).to_owned())),
+            "items" => {
+                mixed = true;
+                items.iter().for_each(|item| add((*item).to_owned()));
+            }
             _ => add(word),
         }
+    }
+    if mixed {
+        names.sort_by_cached_key(|name| fold(name));
     }
     let options = names.into_iter().map(|name| ChoiceOption {
         name,

@@ -36,9 +36,16 @@ pub(super) fn table(text: &str, file: &str) -> Result<Table> {
         .map(|it| it.trim().to_owned())
         .collect();
     let mut rows = Vec::new();
+    let (mut line, mut counted) = (1, 0);
     for record in reader.records() {
         let record = record.map_err(fault)?;
-        let line = record.position().map_or(0, csv::Position::line);
+        // A record's own line is that before its line feed, if a carriage return precedes that.
+        let start = record.position().map_or(0, |it| it.byte() as usize);
+        let blank = text.as_bytes()[start..].iter();
+        let start = start + blank.take_while(|it| b"\r\n".contains(it)).count();
+        let passed = &text.as_bytes()[counted..start];
+        line += passed.iter().filter(|it| **it == b'\n').count() as u64;
+        counted = start;
         let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
         if cells.iter().all(|it| it.trim().is_empty()) {
             continue;

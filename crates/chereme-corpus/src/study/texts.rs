@@ -11,8 +11,11 @@ pub(super) fn both(english: &str, french: &str) -> Texts {
         .into()
 }
 
-/// Usual questions by name: the question and the lowest, middle and highest label, in English and French.
-const SCALES: [(&str, [&str; 2], [[&str; 2]; 3]); 4] = [
+/// A question with a scale: its name, the question, and the lowest, middle and highest label, in English and French.
+type Scale = (&'static str, [&'static str; 2], [[&'static str; 2]; 3]);
+
+/// The usual questions with a scale.
+const SCALES: [Scale; 4] = [
     (
         "realism",
         [

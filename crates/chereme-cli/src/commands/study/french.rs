@@ -148,6 +148,10 @@ pub(in crate::commands) const WORDS: Words = Words {
             "le plan nomme une image qui manque : {path}",
         ),
         (
+            "these clips give the same film: {one}; {other}",
+            "ces extraits donnent le même film : {one} ; {other}",
+        ),
+        (
             "{files}: {n} new, {more} replaced, {same} unchanged; {count} answers stored",
             "{files} : {n} nouveaux, {more} remplacés, {same} inchangés ; {count} réponses enregistrées",
         ),

@@ -234,6 +234,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                     picture.display()
                 ))?;
             }
+            for [one, other] in &done.alike {
+                output.warn(&format!("these clips give the same film: {one}; {other}"))?;
+            }
             output.document(done)
         }
         Action::Import {

@@ -26,7 +26,7 @@ fn corpus(folder: &Path) -> (Corpus, Plan) {
     });
     let plan: Plan = serde_json::from_value(plan).expect("a plan");
     let stored = corpus.store.operation("plan study", |connection| {
-        db::insert(connection, &plan)?;
+        db::insert(connection, &stored::row(&plan))?;
         Ok(((), String::new()))
     });
     stored.expect("stored");
@@ -182,6 +182,53 @@ fn later_answers_replace_unfinished_ones_only() {
         ),
         (2, true)
     );
+}
+
+#[test]
+fn a_merge_brings_the_participants_of_both_sides_and_the_studies_of_the_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mine, plan) = corpus(folder.path());
+    let path = mine.path().to_owned();
+    drop(mine);
+    let other = folder.path().join("other.chereme");
+    fs::copy(&path, &other).expect("copied");
+    let mut mine = Corpus::open(&path, "A").expect("opened");
+    let mut theirs = Corpus::open(&other, "B").expect("opened");
+    let one = answer(1, "BOL", "captured", "places");
+    let file_of = |code: &str, finished| {
+        let content = file(&plan, code, finished, std::slice::from_ref(&one));
+        write(folder.path(), &format!("{code}.json"), &content)
+    };
+    import(&mut mine, &file_of("mine", true));
+    import(&mut theirs, &file_of("theirs", true));
+    for corpus in [&mut mine, &mut theirs] {
+        import(corpus, &file_of("both", true));
+    }
+    let second = Plan {
+        name: "second".into(),
+        ..plan.clone()
+    };
+    let stored = theirs.store.operation("plan study", |connection| {
+        let id = db::insert(connection, &stored::row(&second))?;
+        Ok((id, "second".to_owned()))
+    });
+    stored.expect("stored");
+    drop(theirs);
+    let mut hear = unheard;
+    let report = mine
+        .merge(&other, None, &mut Progress::new(&mut hear))
+        .expect("merged");
+    assert!(report.conflicts.is_empty(), "{report:?}");
+    let study = mine.study("bowls").expect("read");
+    let codes: Vec<(&str, usize)> = study
+        .participants
+        .iter()
+        .map(|it| (it.code.as_str(), it.answers.len()))
+        .collect();
+    assert_eq!(codes, [("both", 1), ("mine", 1), ("theirs", 1)]);
+    assert_eq!(mine.study("second").expect("brought").plan, second);
+    mine.undo().expect("undone");
+    assert_eq!(mine.study("bowls").expect("read").participants.len(), 2);
 }
 
 #[test]

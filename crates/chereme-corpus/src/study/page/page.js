@@ -24,7 +24,7 @@ function el(name, attributes, ...children) {
     else if (value === true) it.setAttribute(key, "");
     else if (value !== false && value !== null && value !== undefined) it.setAttribute(key, value);
   }
-  it.append(...children.flat().filter((child) => child !== null && child !== undefined && child !== false));
+  it.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined && child !== false));
   return it;
 }
 
@@ -158,7 +158,7 @@ function welcome() {
       el("label", { for: "code", class: "name" }, t("code")), code, el("p", { id: "why", class: "quiet" }, t("codeWhy"))),
     fault,
     el("p", { class: "row" }, button(t("start"), start, { class: "main" }),
-      earlier && !earlier.finished && button(t("resume"), () => proceed(earlier)),
+      earlier && button(t("resume"), () => proceed(earlier)),
       button(t("file"), () => file.click()), file),
   );
   progress(0, 1);
@@ -271,8 +271,8 @@ function view(order, at) {
     const left = fields.filter((field) => !now.given.has(field.question.name));
     next.disabled = !can || left.length > 0;
     fields.forEach((field) => field.box.classList.toggle("current", can && field === left[0]));
+    // An empty hint keeps its line, so that nothing moves when it goes.
     hint.textContent = can ? "" : t(now.stage === "first" || !asked(it, "first").length ? "watch" : "watchAgain");
-    hint.hidden = can;
     return left[0];
   }
 
@@ -328,7 +328,7 @@ function view(order, at) {
       if (key === "r" || (key === " " && !control)) { play(1); return true; }
       if (key === "s") { play(0.5); return true; }
       if (key === "enter" && !control) {
-        if (next.disabled && seen()) { hint.textContent = t("answerAll"); hint.hidden = false; }
+        if (next.disabled && seen()) { hint.textContent = t("answerAll"); }
         goOn();
         return true;
       }
@@ -428,7 +428,7 @@ function thanks() {
 }
 
 document.addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey || help.open) return;
+  if (event.ctrlKey || event.metaKey || event.altKey || event.repeat || help.open) return;
   if (event.target.matches("input[type=text]") && event.key !== "Enter") return;
   if (event.key === "?") { event.preventDefault(); showHelp(); return; }
   if (onKey(event)) event.preventDefault();
