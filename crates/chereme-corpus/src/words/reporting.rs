@@ -32,7 +32,7 @@ texts! {
     QUARTILES: "quartiles", "quartiles";
     EACH_ITEM: "Each item", "Chaque élément";
     RECOGNISED: "right", "juste";
-    INTERVAL_95: "95% interval", "intervalle à 95 %";
+    INTERVAL_95: "95% interval", "intervalle à 95 %";
     BARS: "Answers, centred on the middle of the scale", "Réponses, centrées sur le milieu de l’échelle";
     BOXES: "Answers and mean answers of people", "Réponses et réponses moyennes des personnes";
     SHARES: "Right answers with Wilson’s 95% intervals", "Réponses justes avec les intervalles de Wilson à 95 %";
@@ -62,10 +62,10 @@ texts! {
     DELTA: "delta", "delta";
     DIFFERENCE: "mean difference", "différence moyenne";
     SIZE: "size", "taille";
-    SAMENESS: "within ±{bound}?", "dans ±{bound} ?";
+    SAMENESS: "within ±{bound}?", "dans ±{bound} ?";
     OVERALL: "More than two groups: Kruskal-Wallis over all answers {pooled}; Friedman over means of people {people}.", "Plus de deux groupes : Kruskal-Wallis sur toutes les réponses {pooled} ; Friedman sur les moyennes des personnes {people}.";
     EFFECTS_NOTE: "Cliff’s delta, first group minus second, with its {level} interval from {times} resamples of participants. Shaded: differences below ±{bound}.", "Delta de Cliff, premier groupe moins second, avec son intervalle à {level} par {times} rééchantillonnages des participants. Grisé : différences inférieures à ±{bound}.";
-    MEASURE: "Spearman’s rho of {measure} and mean answers of {n} stimuli: {rho}, p {p}; interval from resampled participants {interval}; Kendall’s tau-b {tau}.", "Rho de Spearman entre {measure} et les réponses moyennes de {n} stimuli : {rho}, p {p} ; intervalle par rééchantillonnage des participants {interval} ; tau-b de Kendall {tau}.";
+    MEASURE: "Spearman’s rho of {measure} and mean answers of {n} stimuli: {rho}, p {p}; interval {interval} from resampled participants, with these stimuli alone, while p takes the stimuli as a sample; Kendall’s tau-b {tau}.", "Rho de Spearman entre {measure} et les réponses moyennes de {n} stimuli : {rho}, p {p} ; intervalle {interval} par rééchantillonnage des participants, pour ces stimuli seulement, alors que p traite les stimuli comme un échantillon ; tau-b de Kendall {tau}.";
     NONE_BECAUSE: "none: {why}", "aucun : {why}";
     ONE_SIDED: "One-sided tests, as the plan asks: groups rise in this order.", "Tests unilatéraux, comme le plan le demande : les groupes augmentent dans cet ordre.";
     TWO_SIDED: "Two-sided tests.", "Tests bilatéraux.";
@@ -92,6 +92,7 @@ texts! {
     SIGNIFICANT: "The test is significant.", "Le test est significatif.";
     NOT_SIGNIFICANT: "The test is not significant, which does not show the absence of a correlation.", "Le test n’est pas significatif, ce qui ne montre pas l’absence de corrélation.";
     VERDICT_LINE: "{name}: {verdict}. {because}", "{name} : {verdict}. {because}";
+    PAIR_OF_TEXTS: "{a}: {b}", "{a} : {b}";
     RIGHT_SHARE: "right, %", "juste, %";
     WITHIN_BOUNDS: "The interval lies within the smallest difference of interest.", "L’intervalle reste dans la plus petite différence d’intérêt.";
     BEYOND_BOUNDS: "The interval lies beyond the smallest difference of interest.", "L’intervalle dépasse la plus petite différence d’intérêt.";

@@ -251,7 +251,7 @@ pub(super) fn boxes(rows: &[BoxRow<'_>], scale: [i64; 2], language: Language) ->
     let place = |value: f64| left + 16.0 + (value - low) * unit;
     const ROW: f64 = 64.0;
     let bottom = 6.0 + rows.len() as f64 * ROW;
-    for point in scale[0]..=scale[1] {
+    for point in (scale[0]..=scale[1]).take(100) {
         let x = place(point as f64);
         svg.line([x, 2.0], [x, bottom], "grid");
         svg.text([x, bottom + 16.0], "small mid", &point.to_string());
@@ -461,47 +461,75 @@ pub(super) fn effects(
     svg.finish(w::EFFECTS.of(language))
 }
 
+/// Returns round numbers inside a range, about five of them, and their decimals.
+fn ticks([low, high]: [f64; 2]) -> (Vec<f64>, usize) {
+    let rough = (high - low) / 5.0;
+    let power = rough.log10().floor();
+    let unit = 10_f64.powf(power);
+    let steps = [1.0, 2.0, 5.0, 10.0].map(|it| it * unit);
+    let step = steps.into_iter().find(|it| *it >= rough).unwrap_or(unit);
+    let first = (low / step).ceil();
+    let ticks = (0..12).map(|at| (first + f64::from(at)) * step);
+    let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
+    (ticks.take_while(|it| *it <= high).collect(), decimals)
+}
+
 /// Draws the mean answers of trials over a measure.
 pub(super) fn correlation(points: &[MeasurePoint], names: [&str; 2], language: Language) -> String {
     let mut svg = Svg::new();
     let range = |of: fn(&MeasurePoint) -> f64| {
         let values = points.iter().map(of);
         let (low, high) = values.fold((f64::MAX, f64::MIN), |(a, b), x| (a.min(x), b.max(x)));
-        let room = ((high - low) * 0.06).max(1e-9);
+        let room = ((high - low) * 0.06).max(1e-6 * high.abs().max(1.0));
         [low - room, high + room]
     };
     let (x_range, y_range) = (range(|it| it.measure), range(|it| it.mean));
-    let (left, right, top, bottom) = (70.0, WIDTH - 160.0, 10.0, 300.0);
-    let across =
-        |value: f64| left + (value - x_range[0]) / (x_range[1] - x_range[0]) * (right - left);
-    let up =
-        |value: f64| bottom - (value - y_range[0]) / (y_range[1] - y_range[0]) * (bottom - top);
-    for step in 0..=4_i32 {
-        let share = f64::from(step) / 4.0;
-        let x = x_range[0] + share * (x_range[1] - x_range[0]);
-        let y = y_range[0] + share * (y_range[1] - y_range[0]);
+    let (left, right, top, bottom) = (60.0, WIDTH - 20.0, 28.0, 330.0);
+    let part = |value: f64, range: [f64; 2]| (value - range[0]) / (range[1] - range[0]);
+    let across = |value: f64| left + part(value, x_range) * (right - left);
+    let up = |value: f64| bottom - part(value, y_range) * (bottom - top);
+    let (own, decimals) = ticks(x_range);
+    for x in own {
         svg.line([across(x), top], [across(x), bottom], "grid");
+        let words = number(x, decimals, language);
+        svg.text([across(x), bottom + 17.0], "small mid", &words);
+    }
+    let (own, decimals) = ticks(y_range);
+    for y in own {
         svg.line([left, up(y)], [right, up(y)], "grid");
-        svg.text(
-            [across(x), bottom + 17.0],
-            "small mid",
-            &number(x, 2, language),
-        );
         svg.text(
             [left - 8.0, up(y) + 4.0],
             "small end",
-            &number(y, 2, language),
+            &number(y, decimals, language),
         );
     }
+    svg.line([left, top], [left, bottom], "axis");
+    svg.line([left, bottom], [right, bottom], "axis");
+    let mut taken: Vec<[f64; 3]> = Vec::new();
     for point in points {
-        svg.dot([across(point.measure), up(point.mean)], 4.5, "estimate");
-        let at = [across(point.measure) + 7.0, up(point.mean) + 4.0];
-        if points.len() <= 24 {
-            svg.text(at, "small", &short(&point.label));
+        let [x, y] = [across(point.measure), up(point.mean)];
+        svg.dot([x, y], 4.5, "estimate");
+        let label = short(&point.label);
+        let width = label.chars().count() as f64 * 6.8 + 8.0;
+        // A label stands beside its point if no other one is there; the table of numbers is in the files.
+        let begins = [x + 8.0, x - 8.0 - width];
+        let free = |begin: &f64| {
+            let beside =
+                |it: &[f64; 3]| (it[2] - y).abs() < 14.0 && *begin < it[1] && it[0] < begin + width;
+            *begin > left && begin + width < WIDTH && !taken.iter().any(beside)
+        };
+        if let Some(begin) = begins.into_iter().find(free) {
+            let at = if begin > x {
+                [begin, y + 4.0]
+            } else {
+                [x - 8.0, y + 4.0]
+            };
+            svg.text(at, if begin > x { "small" } else { "small end" }, &label);
+            taken.push([begin, begin + width, y]);
         }
     }
     svg.text([(left + right) / 2.0, bottom + 38.0], "small mid", names[0]);
-    svg.text([4.0, top + 4.0], "small", names[1]);
+    svg.text([4.0, 14.0], "small", names[1]);
     svg.height = bottom + 46.0;
     svg.finish(w::CORRELATION.of(language))
 }

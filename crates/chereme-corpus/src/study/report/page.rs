@@ -193,8 +193,9 @@ impl Page<'_> {
         let left_out: usize = people.excluded.iter().map(|it| it.count).sum();
         let mut reasons = String::new();
         for it in &people.excluded {
-            let words = escaped(&reason(&it.reason, self.language));
-            let _ = write!(reasons, "<li>{}: {words}</li>", it.count);
+            let why = reason(&it.reason, self.language);
+            let words = fill(self.say(w::PAIR_OF_TEXTS), &[("a", &it.count), ("b", &why)]);
+            let _ = write!(reasons, "<li>{}</li>", escaped(&words));
         }
         self.put(format!(
             "<div class=\"flow\"><div><b>{}</b>{}</div><div><b>{left_out}</b>{}<ul>{reasons}</ul></div>\
@@ -258,6 +259,7 @@ impl Page<'_> {
             match &question.kind {
                 QuestionKind::Scale { low, high, labels } => {
                     let legend: Vec<String> = (*low..=*high)
+                        .take(100)
                         .map(|at| {
                             match labels
                                 .get(&at)

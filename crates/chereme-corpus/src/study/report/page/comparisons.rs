@@ -9,7 +9,7 @@ use crate::study::plan::{Expectation, QuestionKind};
 use crate::study::report::charts;
 use crate::study::report::compare::{ALPHA, SMALLEST};
 use crate::study::report::numbers::{self, number, percent};
-use crate::study::report::{Compared, Ends, MeasureReport, Outcome, Pair, PairTest};
+use crate::study::report::{Compared, Ends, MeasureReport, Outcome, Pair, PairTest, TestName};
 use crate::words::{fill, reporting as w};
 
 impl Page<'_> {
@@ -17,7 +17,7 @@ impl Page<'_> {
     pub(super) fn key_numbers(&self, compared: &Compared) -> String {
         let number = |value: f64| number(value, 3, self.language);
         let p = |p: f64| self.equals_p(p);
-        let ends = |it: &Ends| format!("[{}; {}]", number(it.low), number(it.high));
+        let ends = |it: &Ends| self.ends(it);
         if let Some(measure) = &compared.measure {
             let rho = measure.spearman.found();
             let rho = rho.map(|it| (number(it.coefficient), it.p.map_or_else(String::new, p)));
@@ -41,9 +41,19 @@ impl Page<'_> {
                 )
             });
         }
+        let expects = compared.hypothesis.as_ref().map(|it| it.expects);
+        let same = matches!(expects, Some(Expectation::SameWithin(_)));
         let pair = |pair: &Pair| {
             let effect = pair.effect.found()?;
-            let interval = effect.interval.found().map_or_else(String::new, ends);
+            // The interval by which sameness is decided has its own level.
+            let interval = match (same, pair.sameness.found()) {
+                (true, Some(it)) => format!(
+                    "{} ({})",
+                    ends(&it.ends),
+                    percent(it.ends.level, self.language)
+                ),
+                _ => effect.interval.found().map_or_else(String::new, ends),
+            };
             let test = pair.people.found().map_or_else(String::new, |it| {
                 let name = self.say(w::test(it.test));
                 format!(" · {name} {} · n\u{a0}=\u{a0}{}", p(it.p), it.n[0])
@@ -52,6 +62,12 @@ impl Page<'_> {
         };
         let pairs: Vec<String> = compared.pairs.iter().filter_map(pair).collect();
         pairs.join("; ")
+    }
+
+    /// Returns an interval without a break inside.
+    fn ends(&self, ends: &Ends) -> String {
+        let [low, high] = [ends.low, ends.high].map(|end| number(end, 3, self.language));
+        format!("[{low};\u{a0}{high}]")
     }
 
     /// Returns `p = 0.012` or `p < 0.0001`, without a break inside.
@@ -70,9 +86,14 @@ impl Page<'_> {
             let title = match &compared.hypothesis {
                 Some(stated) => {
                     let text = self.text_of(&stated.text, "");
-                    let both = [stated.name.as_str(), text];
-                    let both: Vec<&str> = both.into_iter().filter(|it| !it.is_empty()).collect();
-                    both.join(": ")
+                    if text.is_empty() {
+                        stated.name.clone()
+                    } else {
+                        fill(
+                            self.say(w::PAIR_OF_TEXTS),
+                            &[("a", &stated.name), ("b", &text)],
+                        )
+                    }
                 }
                 None => {
                     let names = [compared.question.as_str(), &compared.part];
@@ -206,7 +227,9 @@ impl Page<'_> {
             {
                 let n = pooled.n[0] + pooled.n[1];
                 let words = fill(self.say(w::DISAGREE), &[("n", &n)]);
-                self.paragraph("soft", &format!("{}: {words}", name(pair)));
+                let values: [(&str, &dyn Display); 2] = [("a", &name(pair)), ("b", &words)];
+                let words = fill(self.say(w::PAIR_OF_TEXTS), &values);
+                self.paragraph("soft", &words);
             }
         }
     }
@@ -216,7 +239,10 @@ impl Page<'_> {
         let mut row = vec![name];
         for test in [&pair.pooled, &pair.people] {
             let (text, holm) = match test.result() {
-                Ok(it) => (self.test(it), numbers::p(it.p_holm, self.language)),
+                Ok(it) => (
+                    self.test(it),
+                    numbers::p(it.p_holm, self.language).replace(' ', "\u{a0}"),
+                ),
                 Err(why) => (self.none(why), String::new()),
             };
             row.push(text);
@@ -231,11 +257,11 @@ impl Page<'_> {
                 .to_owned(),
         );
         row.push(match pair.sameness.result() {
-            Ok(it) => {
-                let [low, high] =
-                    [it.ends.low, it.ends.high].map(|end| number(end, 3, self.language));
-                format!("{} [{low}; {high}]", self.say(w::sameness(it.result)))
-            }
+            Ok(it) => format!(
+                "{} {}",
+                self.say(w::sameness(it.result)),
+                self.ends(&it.ends)
+            ),
             Err(why) => self.none(why),
         });
         row
@@ -244,14 +270,16 @@ impl Page<'_> {
     /// Returns a test with its numbers: `Wilcoxon, W+ = 812.5, n = 57, p = 0.031, exact`.
     fn test(&self, test: &PairTest) -> String {
         let statistic = test.statistic.map_or_else(String::new, |it| {
-            let decimals = if it.fract() == 0.0 { 0 } else { 2 };
+            let decimals = if (2.0 * it).fract() == 0.0 { 1 } else { 2 };
+            let decimals = if it.fract() == 0.0 { 0 } else { decimals };
             let symbol = self.say(w::statistic(test.test));
             format!("{symbol} = {}, ", number(it, decimals, self.language)).replace(' ', "\u{a0}")
         });
         let statistic = statistic.replace(",\u{a0}", ", ");
-        let n = match test.n {
-            [n, m] if n == m => n.to_string(),
-            [n, m] => format!("{n}\u{a0}+\u{a0}{m}"),
+        let [n, m] = test.n;
+        let n = match test.test {
+            TestName::Wilcoxon | TestName::Mcnemar => n.to_string(),
+            TestName::MannWhitney | TestName::Fisher => format!("{n}\u{a0}+\u{a0}{m}"),
         };
         let name = self.say(w::test(test.test));
         let method = self.say(w::method(test.method));
@@ -273,10 +301,7 @@ impl Page<'_> {
         let p = measure.spearman.found().and_then(|it| it.p);
         let p = p.map_or_else(|| "–".to_owned(), |p| numbers::p(p, self.language));
         let interval = match measure.interval.result() {
-            Ok(it) => {
-                let [low, high] = [it.low, it.high].map(|end| number(end, 3, self.language));
-                format!("[{low}; {high}]")
-            }
+            Ok(it) => self.ends(it),
             Err(why) => self.none(why),
         };
         let n = measure.points.len();

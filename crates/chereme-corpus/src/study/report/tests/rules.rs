@@ -136,7 +136,7 @@ fn people_of_two_groups_are_compared_with_each_other() {
         })
         .collect();
     let pair = report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
-    let test = pair.people.found().expect("a test").clone();
+    let test = *pair.people.found().expect("a test");
     assert_eq!(
         (test.test, test.n, pair.mean_difference),
         (TestName::MannWhitney, [6, 6], None)
@@ -170,7 +170,7 @@ fn one_right_answer_each_is_tested_by_mcnemar() {
         })
         .collect();
     let pair = report(&plan, &people, &options()).comparisons[0].pairs[0].clone();
-    let test = pair.people.found().expect("a test").clone();
+    let test = *pair.people.found().expect("a test");
     assert_eq!(test.test, TestName::Mcnemar);
     assert!(
         (test.p - 2.0 / 32.0).abs() < 1e-12,
