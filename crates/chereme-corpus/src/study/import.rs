@@ -433,7 +433,7 @@ impl Work<'_> {
         let question =
             question.ok_or_else(|| format!("the plan does not ask {:?} there", short(name)))?;
         if answer.n == 0 || answer.n as usize > MOST_ANSWERS {
-            return Err(format!("{} is no number of a trial", answer.n));
+            return Err(format!("{} is no place in an order of trials", answer.n));
         }
         match &question.kind {
             QuestionKind::Scale { low, high, .. } => {

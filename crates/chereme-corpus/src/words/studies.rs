@@ -191,10 +191,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "le tableau ne peut pas être lu : {error}",
     ),
     (
-        "the table cannot be written: {error}",
-        "le tableau ne peut pas être écrit : {error}",
-    ),
-    (
         "the row has {n} cells, and there are {titles} titles",
         "la ligne a {n} cases, et il y a {titles} titres",
     ),
@@ -292,8 +288,8 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "le plan n’y demande pas {name}",
     ),
     (
-        "{n} is no number of a trial",
-        "{n} n’est pas un numéro d’essai",
+        "{n} is no place in an order of trials",
+        "{n} n’est pas une place dans un ordre d’essais",
     ),
     (
         "the scale of {name} goes from {low} to {high}",
@@ -325,7 +321,4 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "the column {name} is not known and was left out",
         "la colonne {name} est inconnue et a été laissée de côté",
     ),
-    ("making clips", "création des extraits"),
-    ("drawing films", "dessin des films"),
-    ("reading answers", "lecture des réponses"),
 ];

@@ -140,8 +140,8 @@ pub(in crate::commands) const WORDS: Words = Words {
     lines: &[
         ("answered by {count}", "a reçu les réponses de {count}"),
         (
-            "built {path}: {n} films, {orders} orders of trials, {size} KB",
-            "{path} construit : {n} films, {orders} ordres d’essais, {size} Ko",
+            "questionnaire {path}: {n} films, {orders} orders of trials, {size} KB",
+            "questionnaire {path} : {n} films, {orders} ordres d’essais, {size} Ko",
         ),
         (
             "the plan names a picture that is missing: {path}",

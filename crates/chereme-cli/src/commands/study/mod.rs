@@ -222,7 +222,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 .build_study(name, to, options, &mut progress)?;
             drop(bar);
             output.line(format!(
-                "built {}: {} films, {} orders of trials, {} KB",
+                "questionnaire {}: {} films, {} orders of trials, {} KB",
                 done.page.display(),
                 done.films,
                 done.orders,

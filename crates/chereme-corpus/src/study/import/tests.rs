@@ -266,7 +266,7 @@ fn what_does_not_fit_the_plan_is_left_out_with_a_finding() {
             with("choice", json!("left")),
             "\"realism\" is a scale, which has no options",
         ),
-        (with("n", json!(0)), "0 is no number of a trial"),
+        (with("n", json!(0)), "0 is no place in an order of trials"),
         (
             with("n", json!(1)),
             "\"realism\" was answered twice in trial 1",
