@@ -8,6 +8,7 @@
 //! | [`plan`], [`answers`] | the plan, and the answers of a participant, as values |
 //! | `request`, `texts` | a plan from a few words, and its usual texts |
 //! | `check` | the faults of a plan |
+//! | `distances` | how far clips are from those of another condition |
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `long`, `rows` | answers from files, and as a table |
@@ -17,6 +18,7 @@
 pub mod answers;
 mod build;
 mod check;
+mod distances;
 mod import;
 mod long;
 pub mod order;
@@ -46,6 +48,7 @@ use answers::Participant;
 use plan::Plan;
 
 pub use build::{Questionnaire, QuestionnaireOptions};
+pub use distances::DISTANCE;
 pub use import::{AnswersFile, AnswersReport};
 pub use request::{StudyRequest, words};
 

@@ -13,10 +13,8 @@ texts! {
     RECRUITED: "answered", "ont répondu";
     LEFT_OUT: "left out", "écartés";
     ANALYSED: "analysed", "analysés";
-    NOBODY_LEFT_OUT: "Nobody was left out.", "Personne n’a été écarté.";
     OTHER_PLAN: "{n} of them answered another version of the plan.", "dont {n} avec une autre version du plan.";
     NO_ANSWER: "no answer", "sans réponse";
-    WHO: "Who they are", "Qui ils sont";
     COLUMN_ANSWER: "answer", "réponse";
     EVERYBODY: "all", "tous";
     QUESTION: "Question: {name}", "Question : {name}";
@@ -51,6 +49,8 @@ texts! {
     ODDS: "odds ratio", "rapport de cotes";
     COMPARISONS: "Comparisons", "Comparaisons";
     ALL_PAIRS: "All pairs of conditions: {question}", "Toutes les paires de conditions : {question}";
+    WITH_MEASURE: "Correlation: {question} and {measure}", "Corrélation : {question} et {measure}";
+    NOBODY_SAID: "Nobody answered: {questions}.", "Personne n’a répondu : {questions}.";
     GROUP: "group", "groupe";
     PERSONS: "people", "personnes";
     PAIR: "pair", "paire";
@@ -141,6 +141,22 @@ pub(super) const REPORTS: &[(&str, &str)] = &[
     (
         "the report cannot be written: {error}",
         "le rapport ne peut pas être écrit : {error}",
+    ),
+    (
+        "no trial has the condition {name}",
+        "aucun essai n’a la condition {name}",
+    ),
+    (
+        "conditions of the plan: {list}",
+        "conditions du plan : {list}",
+    ),
+    (
+        "the trials have a measure {name} already",
+        "les essais ont déjà une mesure {name}",
+    ),
+    (
+        "give the column of the table another name",
+        "donnez un autre nom à la colonne du tableau",
     ),
     (
         "a table cannot be written: {error}",

@@ -6,7 +6,7 @@ use crate::progress::unheard;
 use crate::study::{StudyRequest, plan};
 
 /// Returns a corpus with BOL and CHAT of the starter corpus.
-fn corpus(folder: &Path) -> Corpus {
+pub(in crate::study) fn corpus(folder: &Path) -> Corpus {
     let mut corpus = Corpus::create(&folder.join("c.chereme"), "A").expect("made");
     let files: Vec<PathBuf> = crate::unpack_starter(folder)
         .expect("unpacked")

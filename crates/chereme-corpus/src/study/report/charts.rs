@@ -119,8 +119,14 @@ impl Svg {
 
 /// Returns the room for labels beside a figure, by the longest of them.
 fn margin<'a>(labels: impl Iterator<Item = &'a str>) -> f64 {
-    let longest = labels.map(|it| it.chars().count()).max().unwrap_or(0);
-    (longest as f64 * 7.4 + 18.0).clamp(70.0, 270.0)
+    let width = |label: &str| -> f64 {
+        let letters = short(label);
+        letters
+            .chars()
+            .map(|c| if c.is_uppercase() { 9.8 } else { 7.6 })
+            .sum()
+    };
+    (labels.map(width).fold(0.0, f64::max) + 18.0).clamp(70.0, 330.0)
 }
 
 /// Returns a label that fits into the room for labels.

@@ -1,5 +1,7 @@
 //! Comparisons of groups of trials: tests of all answers and of people's means, effects, intervals and sameness.
 
+use std::collections::BTreeSet;
+
 use chereme_analysis::statistics::{
     Alternative, Description, Effect, Interval, Method, Resamples, Undefined, Zeros, equivalence,
     fisher, friedman, holm, kendall, kruskal_wallis, mann_whitney, mcnemar, spearman, wilcoxon,
@@ -22,6 +24,8 @@ pub(super) const SMALLEST: f64 = 0.147;
 pub(super) const ALPHA: f64 = 0.05;
 /// The most pairs of groups for which participants are resampled.
 const MOST_PAIRS: usize = 200;
+/// The fewest trials for which a correlation is shown that no hypothesis asks for.
+const FEWEST: usize = 4;
 /// The most sums that the resampling of one correlation may take.
 const MOST_SUMS: usize = 5_000_000_000;
 
@@ -81,7 +85,8 @@ struct Settings<'a> {
     resampling: &'a Resampling,
 }
 
-/// Returns the comparisons of the hypotheses; without any, all pairs of conditions of each question and part.
+/// Returns the comparisons of the hypotheses; without any, all pairs of conditions of each question and part, and its
+/// correlation with each measure.
 pub(super) fn all(plan: &Plan, people: &[&Participant], resampling: &Resampling) -> Vec<Compared> {
     if !plan.hypotheses.is_empty() {
         let known = plan.hypotheses.iter().filter_map(|it| {
@@ -93,6 +98,8 @@ pub(super) fn all(plan: &Plan, people: &[&Participant], resampling: &Resampling)
     let mut compared = Vec::new();
     for question in &plan.questions {
         let trials = trials_of(plan, question);
+        let measures = trials.iter().flat_map(|it| it.measures.keys());
+        let measures: BTreeSet<&String> = measures.collect();
         let mut parts: Vec<(&str, Vec<&str>)> = Vec::new();
         for trial in trials {
             let place = parts.iter().position(|it| it.0 == trial.part);
@@ -122,6 +129,15 @@ pub(super) fn all(plan: &Plan, people: &[&Participant], resampling: &Resampling)
                 let mut own = between(question, &groups, &settings, false);
                 own.part = (*part).to_owned();
                 compared.push(own);
+            }
+        }
+        for measure in measures {
+            let own = with_measure(plan, question, measure, people, resampling);
+            if own.points.len() >= FEWEST {
+                compared.push(Compared {
+                    measure: Some(own),
+                    ..empty(question, Alternative::TwoSided)
+                });
             }
         }
     }
@@ -175,7 +191,7 @@ fn of_hypothesis(
         }
         Comparison::Measure(measure) => Compared {
             measure: Some(with_measure(plan, question, measure, people, resampling)),
-            ..empty(question, &settings)
+            ..empty(question, settings.side)
         },
     };
     let stated = Stated {
@@ -218,12 +234,12 @@ fn common_part(selections: &[Selection]) -> String {
     }
 }
 
-fn empty(question: &Question, settings: &Settings) -> Compared {
+fn empty(question: &Question, side: Alternative) -> Compared {
     Compared {
         hypothesis: None,
         question: question.name.clone(),
         part: String::new(),
-        side: settings.side,
+        side,
         groups: Vec::new(),
         overall: None,
         pairs: Vec::new(),
@@ -254,7 +270,7 @@ fn between(question: &Question, groups: &[Answered], settings: &Settings, trend:
         groups: groups.iter().map(Answered::summary).collect(),
         overall: (groups.len() > 2).then(|| overall(groups)),
         pairs,
-        ..empty(question, settings)
+        ..empty(question, settings.side)
     }
 }
 

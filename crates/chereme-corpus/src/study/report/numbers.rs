@@ -20,15 +20,24 @@ pub fn number(value: f64, decimals: usize, language: Language) -> String {
     }
 }
 
-/// Returns a whole share in percent without decimals, another one with one.
+/// Returns a share in percent, with one decimal.
 #[must_use]
 pub fn percent(share: f64, language: Language) -> String {
-    let percent = 100.0 * share;
+    with_sign(number(100.0 * share, 1, language), language)
+}
+
+/// Returns a level such as 0.95 in percent, without decimals if it is whole.
+#[must_use]
+pub fn level(level: f64, language: Language) -> String {
+    let percent = 100.0 * level;
     let whole = (percent - percent.round()).abs() < 1e-9;
-    let text = number(percent, usize::from(!whole), language);
+    with_sign(number(percent, usize::from(!whole), language), language)
+}
+
+fn with_sign(number: String, language: Language) -> String {
     match language {
-        Language::French => format!("{text}\u{a0}%"),
-        Language::English => format!("{text}%"),
+        Language::French => format!("{number}\u{a0}%"),
+        Language::English => format!("{number}%"),
     }
 }
 

@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 use super::charts::{self, Bar, BoxRow};
 use super::numbers::{because, number, p, percent, reason};
 use super::{
-    Compared, Conclusion, Confusion, Group, ModelReport, Outcome, QuestionReport, Report, Stated,
-    Verdict,
+    Compared, Conclusion, Confusion, Group, ModelReport, Outcome, ProfileTable, QuestionReport,
+    Report, Stated, Verdict,
 };
 use crate::map::escaped;
 use crate::study::plan::{Expectation, QuestionKind, Texts, text_in};
@@ -61,12 +61,12 @@ impl Page<'_> {
         ));
     }
 
-    /// Puts a table; cells are texts. Numbers stand at the right, columns with longer texts at the left.
+    /// Puts a table; cells are texts. Numbers stand at the right, columns with words at the left.
     fn table(&mut self, titles: &[&str], rows: &[Vec<String>]) {
         const LONG: usize = 14;
         let long = |column: usize| {
             let mut cells = rows.iter().filter_map(|row| row.get(column));
-            cells.any(|cell| cell.chars().count() > LONG)
+            cells.any(|cell| cell.chars().count() > LONG || cell.starts_with(char::is_alphabetic))
         };
         let classes: Vec<&str> = (0..titles.len())
             .map(|column| if long(column) { " class=\"words\"" } else { "" })
@@ -210,8 +210,12 @@ impl Page<'_> {
             let words = fill(self.say(w::OTHER_PLAN), &[("n", &people.other_plan)]);
             self.paragraph("soft", &words);
         }
+        let silent = |table: &&ProfileTable| {
+            let given = table.rows.iter().filter(|row| row.option.is_some());
+            given.map(|row| row.recruited).sum::<usize>() == 0
+        };
         self.put("<div class=\"tables\">");
-        for table in &people.profile {
+        for table in people.profile.iter().filter(|it| !silent(it)) {
             let title = self.text_of(&table.text, &table.question);
             let rows = table.rows.iter().map(|row| {
                 let name = row.option.as_deref().unwrap_or(self.say(w::NO_ANSWER));
@@ -227,6 +231,15 @@ impl Page<'_> {
             self.put("</div>");
         }
         self.put("</div>");
+        let unanswered = people.profile.iter().filter(silent);
+        let unanswered: Vec<&str> = unanswered.map(|it| it.question.as_str()).collect();
+        if !unanswered.is_empty() {
+            let words = fill(
+                self.say(w::NOBODY_SAID),
+                &[("questions", &unanswered.join(", "))],
+            );
+            self.paragraph("soft", &words);
+        }
     }
 
     fn question(&mut self, question: &QuestionReport) {
@@ -271,14 +284,15 @@ impl Page<'_> {
                         })
                         .collect();
                     self.scale(&conditions, &legend, [*low, *high]);
-                    self.items(&items, Some(&legend));
+                    self.items(&items, Some(&legend), None);
                     for model in question.models.iter().filter(|it| it.part == *part) {
                         self.model(model);
                     }
                 }
                 QuestionKind::Choice { options } => {
-                    self.choice(&conditions, options.len());
-                    self.items(&items, None);
+                    let chance = Some(1.0 / options.len().max(1) as f64);
+                    self.choice(&conditions, chance);
+                    self.items(&items, None, chance);
                     for table in question.confusions.iter().filter(|it| it.part == *part) {
                         self.confusion(table);
                     }
@@ -342,8 +356,8 @@ impl Page<'_> {
         self.table(&titles, &rows);
     }
 
-    /// Puts the answers to each item, folded; `legend` has the words of a scale.
-    fn items(&mut self, items: &[Group], legend: Option<&[String]>) {
+    /// Puts the answers to each item, folded; `legend` has the words of a scale, `chance` the share of right guesses.
+    fn items(&mut self, items: &[Group], legend: Option<&[String]>, chance: Option<f64>) {
         if items.len() < 2 {
             return;
         }
@@ -374,13 +388,13 @@ impl Page<'_> {
             let rows: Vec<(&str, &super::Share)> = rows
                 .filter_map(|(it, label)| Some((label.as_str(), it.recognition.as_ref()?)))
                 .collect();
-            let figure = charts::shares(&rows, None, self.language);
+            let figure = charts::shares(&rows, chance, self.language);
             self.figure(&figure, self.say(w::SHARES_NOTE));
         }
         self.put("</details>");
     }
 
-    fn choice(&mut self, groups: &[Group], options: usize) {
+    fn choice(&mut self, groups: &[Group], chance: Option<f64>) {
         let rows: Vec<(&str, &super::Share)> = groups
             .iter()
             .filter_map(|it| Some((it.condition.as_str(), it.recognition.as_ref()?)))
@@ -388,7 +402,7 @@ impl Page<'_> {
         if rows.is_empty() {
             return;
         }
-        let figure = charts::shares(&rows, Some(1.0 / options.max(1) as f64), self.language);
+        let figure = charts::shares(&rows, chance, self.language);
         self.figure(&figure, self.say(w::SHARES_NOTE));
         let table = groups.iter().filter_map(|it| {
             let own = it.recognition?;

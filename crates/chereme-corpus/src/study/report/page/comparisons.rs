@@ -8,7 +8,7 @@ use super::Page;
 use crate::study::plan::{Expectation, QuestionKind};
 use crate::study::report::charts;
 use crate::study::report::compare::{ALPHA, SMALLEST};
-use crate::study::report::numbers::{self, number, percent};
+use crate::study::report::numbers::{self, number};
 use crate::study::report::{Compared, Ends, MeasureReport, Outcome, Pair, PairTest, TestName};
 use crate::words::{fill, reporting as w};
 
@@ -50,7 +50,7 @@ impl Page<'_> {
                 (true, Some(it)) => format!(
                     "{} ({})",
                     ends(&it.ends),
-                    percent(it.ends.level, self.language)
+                    numbers::level(it.ends.level, self.language)
                 ),
                 _ => effect.interval.found().map_or_else(String::new, ends),
             };
@@ -98,7 +98,17 @@ impl Page<'_> {
                 None => {
                     let names = [compared.question.as_str(), &compared.part];
                     let names: Vec<&str> = names.into_iter().filter(|it| !it.is_empty()).collect();
-                    fill(self.say(w::ALL_PAIRS), &[("question", &names.join(", "))])
+                    let names = names.join(", ");
+                    let measure = compared.measure.as_ref().map_or("", |it| &it.measure);
+                    let form = if measure.is_empty() {
+                        w::ALL_PAIRS
+                    } else {
+                        w::WITH_MEASURE
+                    };
+                    fill(
+                        self.say(form),
+                        &[("question", &names), ("measure", &measure)],
+                    )
                 }
             };
             self.heading(3, &title);
@@ -193,7 +203,7 @@ impl Page<'_> {
             let figure = charts::effects(&rows, bound, self.language);
             let resampling = &self.report.resampling;
             let (level, bound) = (
-                percent(resampling.level, self.language),
+                numbers::level(resampling.level, self.language),
                 number(bound, 3, self.language),
             );
             let values: [(&str, &dyn Display); 3] = [

@@ -181,9 +181,15 @@ fn a_test_that_is_not_significant_with_few_people_decides_nothing() {
 fn without_hypotheses_all_pairs_are_compared_and_nothing_is_concluded() {
     let (plan, people) = simulated(&[("a", 0.0), ("b", 0.3), ("c", 0.6)], 30, json!({}), 3);
     let found = quick(&plan, &people);
-    let [compared] = &found.comparisons[..] else {
-        panic!("one comparison")
+    let [compared, follows] = &found.comparisons[..] else {
+        panic!("one comparison of conditions, one with a measure")
     };
+    let measure = follows.measure.as_ref().expect("a measure");
+    assert_eq!(
+        (measure.measure.as_str(), measure.points.len()),
+        ("distance", 12)
+    );
+    assert!(follows.conclusion.is_none());
     let places: Vec<[usize; 2]> = compared.pairs.iter().map(|it| it.groups).collect();
     assert_eq!(places, [[0, 1], [0, 2], [1, 2]]);
     assert!(compared.conclusion.is_none() && !compared.is_one_sided());
