@@ -10,12 +10,15 @@
 //! | `check` | the faults of a plan |
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
-//! | `import`, `long`, `rows` | answers from files, and as a table |
+//! | `import`, `files`, `fits` | answers from files, checked against the plan |
+//! | `long`, `rows` | answers as a table |
 //! | `stored` | plans and participants as rows of the database |
 
 pub mod answers;
 mod build;
 mod check;
+mod files;
+mod fits;
 mod import;
 mod long;
 pub mod order;
