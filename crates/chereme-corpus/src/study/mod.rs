@@ -11,7 +11,8 @@
 //! | `distances` | how far clips are from those of another condition |
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
-//! | `import`, `long`, `rows` | answers from files, and as a table |
+//! | `import`, `files`, `fits` | answers from files, checked against the plan |
+//! | `long`, `rows` | answers as a table |
 //! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
@@ -19,6 +20,8 @@ pub mod answers;
 mod build;
 mod check;
 mod distances;
+mod files;
+mod fits;
 mod import;
 mod long;
 pub mod order;

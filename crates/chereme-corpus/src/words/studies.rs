@@ -141,10 +141,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "`chereme study answers CORPUS NOM --to FICHIER.csv` donne la liste des codes",
     ),
     ("there is no study {name}", "il n’y a pas d’étude {name}"),
-    (
-        "`chereme list CORPUS studies` lists them",
-        "`chereme list CORPUS studies` en donne la liste",
-    ),
     ("a question needs a name", "une question a besoin d’un nom"),
     (
         "write a name, and for other answers than the usual scale = and the ends of a scale or the options: realism=1-7, gloss=items, place=left right",
@@ -205,6 +201,14 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
     (
         "a table of answers has one answer in each row, under the names of the answers' JSON",
         "un tableau de réponses a une réponse par ligne, sous les noms du JSON des réponses",
+    ),
+    (
+        "there are no files of answers",
+        "il n’y a pas de fichiers de réponses",
+    ),
+    (
+        "answers are files that end in .json or .csv",
+        "les réponses sont des fichiers qui finissent par .json ou .csv",
     ),
     (
         "there are more than {n} files",

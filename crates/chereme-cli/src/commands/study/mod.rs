@@ -4,12 +4,13 @@ mod french;
 mod report;
 
 use std::path::PathBuf;
+use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::study::plan::{
     Design, Order, Plan, Question, QuestionKind, Texts, Viewing, text_in,
 };
-use chereme_corpus::study::{QuestionnaireOptions, StudyRequest, words};
+use chereme_corpus::study::{AnswersFile, QuestionnaireOptions, StudyRequest, words};
 use chereme_corpus::{Corpus, FileStatus, Progress, Step};
 use clap::{Subcommand, ValueEnum};
 
@@ -189,11 +190,22 @@ fn condition(text: &str) -> Result<(String, String), String> {
     }
 }
 
-pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+    match &args.action {
+        Action::Import {
+            corpus,
+            name,
+            files,
+        } => import(cli, (corpus, name), files, output),
+        other => act(cli, other, output).map(|()| ExitCode::SUCCESS),
+    }
+}
+
+fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
     let mut progress = Progress::new(&mut hear);
-    match &args.action {
+    match action {
         Action::New(new) => plan(cli, new, &mut progress, output),
         Action::Show { corpus, name } => {
             let study = cli.open(corpus)?.study(name)?;
@@ -239,38 +251,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             }
             output.document(done)
         }
-        Action::Import {
-            corpus,
-            name,
-            files,
-        } => {
-            let report = cli
-                .open(corpus)?
-                .import_answers(name, files, &mut progress)?;
-            drop(bar);
-            for file in &report.files {
-                if file.findings.is_empty() && file.status != FileStatus::Refused {
-                    continue;
-                }
-                let refused = match file.status {
-                    FileStatus::Refused => ": REFUSED",
-                    _ => "",
-                };
-                output.line(format!("{}{refused}", file.path))?;
-                for finding in &file.findings {
-                    print_finding(finding, output)?;
-                }
-            }
-            output.line(format!(
-                "{}: {} new, {} replaced, {} unchanged; {} answers stored",
-                output.counted(report.files.len() as u64, "files"),
-                report.added,
-                report.replaced,
-                report.unchanged,
-                report.answers
-            ))?;
-            output.document(report)
-        }
+        // Its exit code is its own.
+        Action::Import { .. } => Ok(()),
         Action::Answers {
             corpus,
             name,
@@ -295,6 +277,48 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             output.document(serde_json::json!({ "study": name }))
         }
     }
+}
+
+/// Imports answers; nothing but refused files is a failure.
+fn import(
+    cli: &Cli,
+    (corpus, name): (&PathBuf, &str),
+    files: &[PathBuf],
+    output: &mut Output,
+) -> Result<ExitCode> {
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let progress = &mut Progress::new(&mut hear);
+    let report = cli.open(corpus)?.import_answers(name, files, progress)?;
+    drop(bar);
+    for file in &report.files {
+        if file.findings.is_empty() && file.status != FileStatus::Refused {
+            continue;
+        }
+        let refused = match file.status {
+            FileStatus::Refused => ": REFUSED",
+            _ => "",
+        };
+        output.line(format!("{}{refused}", file.path))?;
+        for finding in &file.findings {
+            print_finding(finding, output)?;
+        }
+    }
+    output.line(format!(
+        "{}: {} new, {} replaced, {} unchanged; {} answers stored",
+        output.counted(report.files.len() as u64, "files"),
+        report.added,
+        report.replaced,
+        report.unchanged,
+        report.answers
+    ))?;
+    let refused = |it: &AnswersFile| it.status == FileStatus::Refused;
+    let code = match report.files.iter().all(refused) {
+        true => ExitCode::FAILURE,
+        false => ExitCode::SUCCESS,
+    };
+    output.document(report)?;
+    Ok(code)
 }
 
 fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Output) -> Result<()> {
