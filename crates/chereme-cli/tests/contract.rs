@@ -541,6 +541,16 @@ fn a_study_is_planned_again_from_its_json_built_answered_and_forgotten() {
     let refused = desk.run(&format!("study import {corpus} s b.csv --json"));
     assert_eq!(refused.status.code(), Some(1));
     json(format!("study answers {corpus} s --to all.csv"));
+    let report = json(format!("study report {corpus} s"));
+    assert_eq!(report["people"]["analysed"], 1);
+    let counts = &report["questions"][0]["conditions"][0]["counts"];
+    assert_eq!(*counts, serde_json::json!([0, 0, 0, 0, 1]));
+    let written = desk.run(&format!("study report {corpus} s --to report"));
+    assert!(written.status.success(), "{}", text(&written.stderr));
+    let page = fs::read_to_string(folder.join("report/report.html")).expect("the page");
+    assert!(page.contains("<h1>Bowls</h1>"));
+    let again = desk.run(&format!("study report {corpus} s --to report"));
+    assert!(text(&again.stderr).contains("--force"));
     json(format!("study forget {corpus} s heron"));
     assert_eq!(
         json(format!("list {corpus} studies"))["rows"][0]["participants"],

@@ -210,6 +210,12 @@ pub(crate) const CASES: &[Case] = &[
     ("study build @c nosuch --to @d/q", 1, ERROR),
     ("study import @c nosuch @more", 1, ERROR),
     ("study answers @c nosuch --to @d/a.csv", 1, ERROR),
+    ("study report @c nosuch", 1, ERROR),
+    (
+        "study new @c s --items BOL --condition 'captured={}' --ask realism --distance-from slerp",
+        1,
+        ERROR,
+    ),
     ("study forget @c nosuch heron", 1, ERROR),
     ("study delete @c nosuch", 1, ERROR),
     ("list @c signs --where gloss=Z*", 0, &["/total", "/rows"]),

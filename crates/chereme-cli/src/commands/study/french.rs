@@ -132,6 +132,10 @@ pub(in crate::commands) const WORDS: Words = Words {
             "Ne montrer chaque élément à un participant que dans une condition",
         ),
         (
+            "Add the measure distance to each trial: the distance of its clip from that of the same item in this condition, as in `chereme score`; the report correlates answers with it",
+            "Ajouter à chaque essai la mesure distance : la distance de son extrait à celui du même élément dans cette condition, comme dans `chereme score` ; le rapport lui corrèle les réponses",
+        ),
+        (
             "Balanced Latin square: each condition follows each other equally often",
             "Carré latin équilibré : chaque condition suit chaque autre aussi souvent",
         ),

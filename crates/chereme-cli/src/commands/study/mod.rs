@@ -169,6 +169,10 @@ struct NewArgs {
     /// Show each item to a participant in one condition only
     #[arg(long)]
     between: bool,
+    /// Add the measure distance to each trial: the distance of its clip from that of the same item in this condition, as
+    /// in `chereme score`; the report correlates answers with it
+    #[arg(long, value_name = "CONDITION")]
+    distance_from: Option<String>,
 }
 
 /// The order of conditions.
@@ -326,7 +330,7 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
         Ok((read_text(path)?, path.display().to_string()))
     };
     let mut corpus = cli.open(&args.corpus)?;
-    let plan = match &args.plan {
+    let mut plan = match &args.plan {
         Some(path) => {
             let (text, place) = named(path)?;
             let mut plan = Corpus::read_plan(&text, &place)?;
@@ -355,6 +359,9 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
             request.plan()?
         }
     };
+    if let Some(condition) = &args.distance_from {
+        corpus.measure_distances(&mut plan, condition, progress)?;
+    }
     let done = corpus.plan_study(&plan, progress)?;
     show(&done.plan, output)?;
     output.line(match done.replaced {
