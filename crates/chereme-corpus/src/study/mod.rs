@@ -97,6 +97,7 @@ impl Corpus {
     /// Fails with all faults of the plan; if a clip cannot be found or made; if somebody has answered the study.
     pub fn plan_study(&mut self, plan: &Plan, progress: &mut Progress<'_>) -> Result<PlannedStudy> {
         check::check(plan)?;
+        let plan = &plan.clone().with_short_numbers();
         self.study_clips(plan, progress, |_, _| Ok(()))?;
         let replaced = self.store.operation("plan study", |connection| {
             let replaced = match stored::plan(connection, &plan.name)? {

@@ -82,7 +82,8 @@ pub struct Trial {
     /// The right option of a question, by the question's name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub right: BTreeMap<String, String>,
-    /// Numbers of the film, such as its distance from a reference, for hypotheses about a correlation.
+    /// Numbers of the film, such as its distance from a reference, for hypotheses about a correlation; a stored plan has
+    /// twelve digits of them.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub measures: BTreeMap<String, f64>,
 }
@@ -353,6 +354,27 @@ impl Plan {
         hash.iter().map(|byte| format!("{byte:02x}")).collect()
     }
 
+    /// Returns the plan with twelve significant digits of each number. JSON gives such numbers back exactly, so that a
+    /// plan that is stored and read again has the same [`sha256`](Self::sha256).
+    #[must_use]
+    pub fn with_short_numbers(mut self) -> Self {
+        let short = |number: &mut f64| {
+            if let Ok(rounded) = format!("{number:.11e}").parse() {
+                *number = rounded;
+            }
+        };
+        for trial in &mut self.trials {
+            trial.measures.values_mut().for_each(short);
+        }
+        for hypothesis in &mut self.hypotheses {
+            short(&mut hypothesis.alpha);
+            if let Expectation::SameWithin(bound) = &mut hypothesis.expects {
+                short(bound);
+            }
+        }
+        self
+    }
+
     /// Returns the question of that name.
     #[must_use]
     pub fn question(&self, name: &str) -> Option<&Question> {
@@ -431,6 +453,23 @@ pub(super) mod tests {
             "questions": [{"name": "realism", "kind": {"scale": {"low": 1, "high": 5}}}],
         });
         serde_json::from_value(plan).expect("a plan")
+    }
+
+    #[test]
+    fn numbers_with_many_digits_do_not_change_the_hash_of_a_stored_plan() {
+        let again = |plan: &Plan| -> Plan {
+            let json = serde_json::to_string(plan).expect("written");
+            serde_json::from_str(&json).expect("read again")
+        };
+        for n in 1..2_000 {
+            let mut plan = plan_of(&[("BOL".into(), "captured".into())]);
+            let distance = f64::from(n).sqrt() / 7.0;
+            plan.trials[0].measures.insert("distance".into(), distance);
+            let plan = plan.with_short_numbers();
+            assert_eq!(again(&plan).sha256(), plan.sha256(), "{distance}");
+            let kept = plan.trials[0].measures["distance"];
+            assert!((kept / distance - 1.0).abs() < 1e-11, "{distance}");
+        }
     }
 
     #[test]

@@ -155,7 +155,7 @@ pub(super) fn diverging(bars: &[Bar<'_>], legend: &[String], language: Language)
     let mut x = 4.0;
     let mut y = 6.0;
     for (at, text) in legend.iter().enumerate() {
-        let width = 30.0 + text.chars().count() as f64 * 6.4;
+        let width = 30.0 + text.chars().count() as f64 * 7.3;
         if x + width > WIDTH {
             (x, y) = (4.0, y + 22.0);
         }

@@ -188,7 +188,7 @@ impl Page<'_> {
         let name = |it: &Pair| {
             it.groups
                 .map(|at| compared.groups[at].label.clone())
-                .join(" − ")
+                .join("\u{a0}− ")
         };
         let rows: Vec<(String, f64, Option<Ends>)> = compared
             .pairs
