@@ -520,9 +520,14 @@ pub(super) fn correlation(points: &[MeasurePoint], names: [&str; 2], language: L
         // A label stands beside its point if no other one is there; the table of numbers is in the files.
         let begins = [x + 8.0, x - 8.0 - width];
         let free = |begin: &f64| {
-            let beside =
-                |it: &[f64; 3]| (it[2] - y).abs() < 14.0 && *begin < it[1] && it[0] < begin + width;
-            *begin > left && begin + width < WIDTH && !taken.iter().any(beside)
+            let end = begin + width;
+            let beside = |it: &[f64; 3]| (it[2] - y).abs() < 14.0 && *begin < it[1] && it[0] < end;
+            let covers = |it: &MeasurePoint| {
+                let [x, own] = [across(it.measure), up(it.mean)];
+                (own - y).abs() < 8.0 && *begin < x + 4.0 && x - 4.0 < end
+            };
+            let inside = *begin > left && end < WIDTH;
+            inside && !taken.iter().any(beside) && !points.iter().any(covers)
         };
         if let Some(begin) = begins.into_iter().find(free) {
             let at = if begin > x {

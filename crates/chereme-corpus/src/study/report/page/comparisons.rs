@@ -130,7 +130,7 @@ impl Page<'_> {
         self.group_table(compared);
         if let Some(overall) = &compared.overall {
             let p = |found: Result<f64, Undefined>| match found {
-                Ok(p) => format!("p {}", numbers::p(p, self.language)),
+                Ok(p) => self.equals_p(p),
                 Err(why) => self.none(why),
             };
             let pooled = p(overall.pooled.result().map(|it| it.p));
@@ -309,7 +309,7 @@ impl Page<'_> {
         let rho = coefficient(measure.spearman.result().map(|it| it.coefficient));
         let tau = coefficient(measure.kendall.result().map(|it| it.coefficient));
         let p = measure.spearman.found().and_then(|it| it.p);
-        let p = p.map_or_else(|| "–".to_owned(), |p| numbers::p(p, self.language));
+        let p = p.map_or_else(|| "p –".to_owned(), |p| self.equals_p(p));
         let interval = match measure.interval.result() {
             Ok(it) => self.ends(it),
             Err(why) => self.none(why),
