@@ -51,11 +51,18 @@ pub(crate) fn names(connection: &Connection) -> Result<Vec<String>> {
     Ok(names.collect::<rusqlite::Result<_>>()?)
 }
 
-/// Returns the row number and plan, as JSON, of the study of that name.
-pub(crate) fn plan(connection: &Connection, name: &str) -> Result<Option<(i64, String)>> {
+/// Returns the row number of the study of that name, and the study.
+pub(crate) fn study(connection: &Connection, name: &str) -> Result<Option<(i64, StudyRow)>> {
     let found = connection
-        .prepare_cached("SELECT id, plan FROM study WHERE name = ?1")?
-        .query_row([name], |row| Ok((row.get(0)?, row.get(1)?)))
+        .prepare_cached("SELECT id, name, plan, plan_sha256 FROM study WHERE name = ?1")?
+        .query_row([name], |row| {
+            let it = StudyRow {
+                name: row.get(1)?,
+                plan: row.get(2)?,
+                plan_sha256: row.get(3)?,
+            };
+            Ok((row.get(0)?, it))
+        })
         .optional()?;
     Ok(found)
 }

@@ -82,7 +82,7 @@ impl Corpus {
         options: QuestionnaireOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Questionnaire> {
-        let Study { plan, .. } = self.study(name)?;
+        let study = self.study(name)?;
         let page = to.join("index.html");
         if page.exists() && !options.force {
             return Err(Error::file(page, std::io::ErrorKind::AlreadyExists.into()));
@@ -91,7 +91,7 @@ impl Corpus {
         let new = !to.exists();
         fs::create_dir_all(&media).map_err(|error| Error::file(&media, error))?;
         let mut made = Vec::new();
-        let done = self.questionnaire(&plan, &page, options, &mut made, progress);
+        let done = self.questionnaire(&study, &page, options, &mut made, progress);
         if done.is_err() {
             // Whatever cannot be removed does no harm: the page is written last.
             made.iter().for_each(|film| drop(fs::remove_file(film)));
@@ -105,12 +105,13 @@ impl Corpus {
 
     fn questionnaire(
         &mut self,
-        plan: &Plan,
+        study: &Study,
         page: &Path,
         options: QuestionnaireOptions,
         made: &mut Vec<PathBuf>,
         progress: &mut Progress<'_>,
     ) -> Result<Questionnaire> {
+        let plan = &study.plan;
         let media = page.with_file_name(MEDIA);
         let mut reach: Option<Reach> = None;
         self.study_clips(plan, progress, |_, it| {
@@ -161,7 +162,7 @@ impl Corpus {
             Ok(())
         })?;
         let rows = order::rows(plan);
-        let text = html(plan, &films, &rows);
+        let text = html(study, &films, &rows);
         bytes += write(page, options.force, |out| put(out, text.as_bytes(), page))?;
         let names: BTreeSet<&String> = films.values().collect();
         if options.force {
@@ -169,7 +170,7 @@ impl Corpus {
         }
         Ok(Questionnaire {
             page: page.to_owned(),
-            plan_sha256: plan.sha256(),
+            plan_sha256: study.plan_sha256.clone(),
             films: names.len(),
             bytes,
             orders: rows.len(),
@@ -273,7 +274,8 @@ fn alike(plan: &Plan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
 }
 
 /// Returns the page. What participants should not be led by, such as right answers, hypotheses and recipes, is not in it.
-fn html(plan: &Plan, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown>]) -> String {
+fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown>]) -> String {
+    let plan = &study.plan;
     let trials: Vec<serde_json::Value> = plan
         .trials
         .iter()
@@ -288,7 +290,7 @@ fn html(plan: &Plan, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown>]
         .map(|row| row.iter().map(|it| (it.trial, it.block)).collect())
         .collect();
     let data = json!({
-        "study": plan.name, "plan_sha256": plan.sha256(), "title": plan.title,
+        "study": plan.name, "plan_sha256": study.plan_sha256, "title": plan.title,
         "consent": plan.consent, "questions": plan.questions, "profile": plan.profile,
         "parts": plan.parts(), "trials": trials, "rows": rows,
     });

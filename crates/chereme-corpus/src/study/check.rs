@@ -14,8 +14,9 @@ use crate::error::{Error, Result};
 const MOST: usize = 500;
 /// The largest number of options of a choice.
 const MOST_OPTIONS: usize = 60;
-/// The largest number of blocks.
+/// The largest number of blocks, and of films that a participant sees.
 const MOST_BLOCKS: u32 = 20;
+const MOST_SHOWN: usize = 1000;
 /// The largest number of answers of a scale: the digits 1 to 9 are its keys.
 const MOST_POINTS: i64 = 9;
 /// The largest size of a plan's JSON in bytes.
@@ -62,6 +63,13 @@ pub(super) fn check(plan: &Plan) -> Result<()> {
     }
     if !(1..=MOST_BLOCKS).contains(&plan.design.blocks) {
         faults.add("design", format!("a design has 1 to {MOST_BLOCKS} blocks"));
+    }
+    let shown = plan.main().count() * plan.design.blocks as usize;
+    if shown > MOST_SHOWN {
+        faults.add(
+            "design",
+            format!("a participant would see {shown} films; {MOST_SHOWN} are the most"),
+        );
     }
     questions(plan, &mut faults);
     trials(plan, &mut faults);

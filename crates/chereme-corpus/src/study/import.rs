@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::answers::Participant;
 use super::files::{self, Findings, FromFile, listed};
-use super::plan::Plan;
+use super::stored::Stored;
 use super::{fits, found, long, stored};
 use crate::Corpus;
 use crate::db::studies as db;
@@ -73,16 +73,15 @@ impl Corpus {
         }
         self.store
             .operation_with_progress("import answers", progress, |connection, progress| {
-                let (id, plan) = found(connection, study)?;
+                let found = found(connection, study)?;
+                let plan = &found.plan;
                 let mut report = AnswersReport {
                     study: plan.name.clone(),
                     ..AnswersReport::default()
                 };
                 let work = Work {
                     connection,
-                    study: id,
-                    sha256: plan.sha256(),
-                    plan: &plan,
+                    study: &found,
                 };
                 for (done, path) in files.iter().enumerate() {
                     progress.report(Step {
@@ -127,9 +126,7 @@ enum Became {
 
 struct Work<'c> {
     connection: &'c Connection,
-    study: i64,
-    plan: &'c Plan,
-    sha256: String,
+    study: &'c Stored,
 }
 
 impl Work<'_> {
@@ -184,12 +181,14 @@ impl Work<'_> {
             lines,
         } = it;
         person.code = person.code.trim().to_owned();
-        if let Some((message, remedy)) = fits::refused(self.plan, &self.sha256, &person) {
+        if let Some((message, remedy)) =
+            fits::refused(&self.study.plan, &self.study.sha256, &person)
+        {
             let line = lines.first().copied();
             findings.refuse(line, message, remedy);
             return Ok((person, Became::Refused));
         }
-        person.study.clone_from(&self.plan.name);
+        person.study.clone_from(&self.study.plan.name);
         person.started_day = fits::day(&person.started_day);
         if !["en", "fr"].contains(&person.language.as_str()) {
             person.language.clear();
@@ -197,15 +196,15 @@ impl Work<'_> {
         if !person.device.dpr.is_finite() {
             person.device.dpr = 0.0;
         }
-        fits::profile(self.plan, &mut person, findings);
-        fits::answers(self.plan, &mut person, &lines, findings);
+        fits::profile(&self.study.plan, &mut person, findings);
+        fits::answers(&self.study.plan, &mut person, &lines, findings);
         let code = Some(person.code.as_str());
-        let known = db::participants(self.connection, self.study, code)?;
+        let known = db::participants(self.connection, self.study.id, code)?;
         let Some((row, finished)) = known.first().map(|(row, it)| (*row, it.finished)) else {
-            stored::insert(self.connection, self.study, &person)?;
+            stored::insert(self.connection, self.study.id, &person)?;
             return Ok((person, Became::Added));
         };
-        let before = stored::participants(self.connection, self.study, self.plan, code)?;
+        let before = stored::participants(self.connection, self.study, code)?;
         let before = before.into_iter().next();
         if before.as_ref() == Some(&person) {
             return Ok((person, Became::Unchanged));
@@ -231,7 +230,7 @@ impl Work<'_> {
             return Ok((person, Became::Refused));
         }
         db::delete_participant(self.connection, row)?;
-        stored::insert(self.connection, self.study, &person)?;
+        stored::insert(self.connection, self.study.id, &person)?;
         Ok((person, Became::Replaced))
     }
 }

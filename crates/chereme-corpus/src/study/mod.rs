@@ -49,6 +49,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use answers::Participant;
 use plan::Plan;
+use stored::Stored;
 
 pub use build::{Questionnaire, QuestionnaireOptions};
 pub use distances::DISTANCE;
@@ -60,6 +61,8 @@ pub use request::{StudyRequest, words};
 pub struct Study {
     /// The plan.
     pub plan: Plan,
+    /// The SHA-256 of the plan, by which answers name it.
+    pub plan_sha256: String,
     /// The participants with their answers, by code.
     pub participants: Vec<Participant>,
 }
@@ -100,8 +103,8 @@ impl Corpus {
         let plan = &plan.clone().with_short_numbers();
         self.study_clips(plan, progress, |_, _| Ok(()))?;
         let replaced = self.store.operation("plan study", |connection| {
-            let replaced = match stored::plan(connection, &plan.name)? {
-                Some((id, _)) if db::participant_count(connection, id)? > 0 => {
+            let replaced = match stored::study(connection, &plan.name)? {
+                Some(old) if db::participant_count(connection, old.id)? > 0 => {
                     let error = Error::wrong(format!(
                         "people have answered the study {:?}, so that its plan cannot change",
                         plan.name
@@ -110,9 +113,9 @@ impl Corpus {
                         .at(&plan.name)
                         .advise("give the new plan another name"));
                 }
-                Some((_, old)) if old == *plan => true,
-                Some((id, _)) => {
-                    db::replace(connection, id, &stored::row(plan))?;
+                Some(old) if old.plan == *plan => true,
+                Some(old) => {
+                    db::replace(connection, old.id, &stored::row(plan))?;
                     true
                 }
                 None => {
@@ -135,9 +138,13 @@ impl Corpus {
     /// Fails if there is no study of that name.
     pub fn study(&self, name: &str) -> Result<Study> {
         let connection = self.store.read();
-        let (id, plan) = found(connection, name)?;
-        let participants = stored::participants(connection, id, &plan, None)?;
-        Ok(Study { plan, participants })
+        let found = found(connection, name)?;
+        let participants = stored::participants(connection, &found, None)?;
+        Ok(Study {
+            plan: found.plan,
+            plan_sha256: found.sha256,
+            participants,
+        })
     }
 
     /// Deletes a study with all its answers.
@@ -146,7 +153,7 @@ impl Corpus {
     /// Fails if there is no study of that name.
     pub fn delete_study(&mut self, name: &str) -> Result<()> {
         self.store.operation("delete study", |connection| {
-            let (id, plan) = found(connection, name)?;
+            let Stored { id, plan, .. } = found(connection, name)?;
             db::delete(connection, id)?;
             Ok(((), plan.name))
         })
@@ -158,7 +165,7 @@ impl Corpus {
     /// Fails if there is no such study, or no participant with that code.
     pub fn forget_participant(&mut self, study: &str, code: &str) -> Result<()> {
         self.store.operation("forget participant", |connection| {
-            let (id, plan) = found(connection, study)?;
+            let Stored { id, plan, .. } = found(connection, study)?;
             let people = db::participants(connection, id, Some(code.trim()))?;
             let Some((row, _)) = people.first() else {
                 let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
@@ -243,9 +250,9 @@ impl Corpus {
     }
 }
 
-/// Returns the row and plan of a study.
-fn found(connection: &Connection, name: &str) -> Result<(i64, Plan)> {
-    if let Some(found) = stored::plan(connection, name.trim())? {
+/// Returns the study of that name.
+fn found(connection: &Connection, name: &str) -> Result<Stored> {
+    if let Some(found) = stored::study(connection, name.trim())? {
         return Ok(found);
     }
     let names = db::names(connection)?;

@@ -6,8 +6,10 @@ use super::plan::{Order, Plan, Role};
 
 /// How many trials lie between two versions of an item if there is room: versions are at least this far apart.
 const APART: usize = 3;
-/// How many shuffles are tried for an order without versions close to each other.
-const TRIES: usize = 200;
+/// How many shuffles are tried for an order without versions close to each other: fewer for many trials.
+const TRIES: std::ops::RangeInclusive<usize> = 8..=200;
+/// The number of trials that all shuffles of one group draw together, about.
+const DRAWN: usize = 5000;
 /// The least number of rows, so that participants with the same row are few.
 const LEAST_ROWS: usize = 48;
 /// The largest number of rows.
@@ -96,6 +98,8 @@ struct Part {
     checks: Vec<usize>,
     /// The versions of each item.
     items: Vec<Vec<usize>>,
+    /// The item of each trial of the plan, as a position in `items`; that of other parts has no meaning.
+    item_of: Vec<usize>,
 }
 
 impl Part {
@@ -104,6 +108,7 @@ impl Part {
             training: Vec::new(),
             checks: Vec::new(),
             items: Vec::new(),
+            item_of: vec![0; plan.trials.len()],
         };
         let mut names: Vec<&str> = Vec::new();
         for (at, trial) in plan
@@ -116,8 +121,12 @@ impl Part {
                 Role::Training => it.training.push(at),
                 Role::Check => it.checks.push(at),
                 Role::Main => match names.iter().position(|name| *name == trial.item) {
-                    Some(item) => it.items[item].push(at),
+                    Some(item) => {
+                        it.items[item].push(at);
+                        it.item_of[at] = item;
+                    }
                     None => {
+                        it.item_of[at] = names.len();
                         names.push(&trial.item);
                         it.items.push(vec![at]);
                     }
@@ -157,8 +166,9 @@ impl Part {
                 }
             };
             for group in groups {
-                let before: Vec<&str> = main.iter().map(|it| item(plan, it.trial)).collect();
-                let order = apart(plan, &before, &group, random);
+                let late = &main[main.len().saturating_sub(APART - 1)..];
+                let before: Vec<usize> = late.iter().map(|it| self.item_of[it.trial]).collect();
+                let order = self.apart(&before, &group, random);
                 main.extend(order.into_iter().map(|trial| Shown { trial, block }));
             }
         }
@@ -196,80 +206,74 @@ impl Part {
             main.insert(at, Shown { trial, block });
         }
     }
-}
 
-fn item(plan: &Plan, trial: usize) -> &str {
-    &plan.trials[trial].item
-}
-
-/// Returns the trials of `group` in random order, with versions of an item [`APART`] from each other and from those
-/// `before` if that is possible; otherwise the best order that was found.
-fn apart(plan: &Plan, before: &[&str], group: &[usize], random: &mut Random) -> Vec<usize> {
-    let mut best: Option<(usize, Vec<usize>)> = None;
-    for _ in 0..TRIES {
-        let order = drawn(plan, before, group, random);
-        let cost = closeness(plan, before, &order);
-        if best.as_ref().is_none_or(|(least, _)| cost < *least) {
-            best = Some((cost, order));
-        }
-        if cost == 0 {
-            break;
-        }
-    }
-    best.map_or_else(Vec::new, |(_, order)| order)
-}
-
-/// Returns the trials one after another, each drawn from those whose item was not seen of late; an item with many
-/// versions left goes first if the others could no longer keep its versions apart.
-fn drawn(plan: &Plan, before: &[&str], group: &[usize], random: &mut Random) -> Vec<usize> {
-    let mut left = group.to_vec();
-    let mut seen: Vec<&str> = before.to_vec();
-    let mut order = Vec::with_capacity(left.len());
-    while !left.is_empty() {
-        let late = &seen[seen.len().saturating_sub(APART - 1)..];
-        let mut free: Vec<usize> = (0..left.len())
-            .filter(|&at| !late.contains(&item(plan, left[at])))
-            .collect();
-        if free.is_empty() {
-            free = (0..left.len())
-                .filter(|&at| late.last() != Some(&item(plan, left[at])))
-                .collect();
-        }
-        if free.is_empty() {
-            free = (0..left.len()).collect();
-        }
-        let versions = |at: usize| {
-            let name = item(plan, left[at]);
-            left.iter().filter(|it| item(plan, **it) == name).count()
-        };
-        let most = free.iter().map(|&at| versions(at)).max().unwrap_or(0);
-        if most > 1 && (most - 1) * APART + 1 >= left.len() {
-            free.retain(|&at| versions(at) == most);
-        }
-        let trial = left.remove(free[random.below(free.len())]);
-        seen.push(item(plan, trial));
-        order.push(trial);
-    }
-    order
-}
-
-/// Returns how many versions of an item are too close to each other; twice in a row counts hundredfold.
-fn closeness(plan: &Plan, before: &[&str], order: &[usize]) -> usize {
-    let start = before.len().saturating_sub(APART - 1);
-    let all: Vec<&str> = before[start..]
-        .iter()
-        .copied()
-        .chain(order.iter().map(|&trial| item(plan, trial)))
-        .collect();
-    let mut cost = 0;
-    for at in 0..all.len() {
-        for far in 1..APART.min(all.len() - at) {
-            if all[at] == all[at + far] {
-                cost += if far == 1 { 100 } else { 1 };
+    /// Returns the trials of `group` in random order, with versions of an item [`APART`] from each other and from the
+    /// items `before` if that is possible; otherwise the best order that was found.
+    fn apart(&self, before: &[usize], group: &[usize], random: &mut Random) -> Vec<usize> {
+        let mut best: Option<(usize, Vec<usize>)> = None;
+        let tries = DRAWN / group.len().max(1);
+        for _ in 0..tries.clamp(*TRIES.start(), *TRIES.end()) {
+            let order = self.drawn(before, group, random);
+            let cost = self.closeness(before, &order);
+            if best.as_ref().is_none_or(|(least, _)| cost < *least) {
+                best = Some((cost, order));
+            }
+            if cost == 0 {
+                break;
             }
         }
+        best.map_or_else(Vec::new, |(_, order)| order)
     }
-    cost
+
+    /// Returns the trials one after another, each drawn from those whose item was not seen of late; an item with many
+    /// versions left goes first if the others could no longer keep its versions apart.
+    fn drawn(&self, before: &[usize], group: &[usize], random: &mut Random) -> Vec<usize> {
+        let mut left = group.to_vec();
+        let mut versions = vec![0_usize; self.items.len()];
+        group.iter().for_each(|&it| versions[self.item_of[it]] += 1);
+        let mut seen = before.to_vec();
+        let mut order = Vec::with_capacity(left.len());
+        while !left.is_empty() {
+            let late = &seen[seen.len().saturating_sub(APART - 1)..];
+            let item = |at: usize| self.item_of[left[at]];
+            let among = |shut: &[usize]| -> Vec<usize> {
+                (0..left.len())
+                    .filter(|&at| !shut.contains(&item(at)))
+                    .collect()
+            };
+            let mut free = among(late);
+            if free.is_empty() {
+                free = among(&late[late.len().saturating_sub(1)..]);
+            }
+            if free.is_empty() {
+                free = among(&[]);
+            }
+            let most = free.iter().map(|&at| versions[item(at)]).max().unwrap_or(0);
+            if most > 1 && (most - 1) * APART + 1 >= left.len() {
+                free.retain(|&at| versions[item(at)] == most);
+            }
+            let trial = left.remove(free[random.below(free.len())]);
+            seen.push(self.item_of[trial]);
+            versions[self.item_of[trial]] -= 1;
+            order.push(trial);
+        }
+        order
+    }
+
+    /// Returns how many versions of an item are too close to each other; twice in a row counts hundredfold.
+    fn closeness(&self, before: &[usize], order: &[usize]) -> usize {
+        let items = order.iter().map(|&trial| self.item_of[trial]);
+        let all: Vec<usize> = before.iter().copied().chain(items).collect();
+        let mut cost = 0;
+        for at in 0..all.len() {
+            for far in 1..APART.min(all.len() - at) {
+                if all[at] == all[at + far] {
+                    cost += if far == 1 { 100 } else { 1 };
+                }
+            }
+        }
+        cost
+    }
 }
 
 fn least_multiple(a: usize, b: usize) -> usize {

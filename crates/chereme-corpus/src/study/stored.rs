@@ -9,12 +9,23 @@ use super::plan::{Plan, Role};
 use crate::db::studies::{self as db, AnswerRow, ParticipantRow, StudyRow};
 use crate::error::{Error, Result};
 
-/// Returns the row number and plan of the study of that name.
-pub(super) fn plan(connection: &Connection, name: &str) -> Result<Option<(i64, Plan)>> {
-    let found = db::plan(connection, name)?;
-    found
-        .map(|(id, json)| Ok((id, read(&json, || format!("study {name:?}"))?)))
-        .transpose()
+/// A study as stored.
+pub(super) struct Stored {
+    pub(super) id: i64,
+    pub(super) plan: Plan,
+    /// The hash of the plan when it was stored: a later version may write the plan's JSON in another form.
+    pub(super) sha256: String,
+}
+
+/// Returns the study of that name.
+pub(super) fn study(connection: &Connection, name: &str) -> Result<Option<Stored>> {
+    let found = db::study(connection, name)?;
+    let stored = found.map(|(id, it)| {
+        let plan = read(&it.plan, || format!("study {name:?}"))?;
+        let sha256 = it.plan_sha256;
+        Ok(Stored { id, plan, sha256 })
+    });
+    stored.transpose()
 }
 
 /// Returns a plan as a row.
@@ -29,20 +40,19 @@ pub(super) fn row(plan: &Plan) -> StudyRow {
 /// Returns the participants of a study with their answers, by code; only the one with that code, if one is given.
 pub(super) fn participants(
     connection: &Connection,
-    study: i64,
-    plan: &Plan,
+    study: &Stored,
     code: Option<&str>,
 ) -> Result<Vec<Participant>> {
-    let sha256 = plan.sha256();
+    let name = &study.plan.name;
     let mut all = Vec::new();
-    for (id, it) in db::participants(connection, study, code)? {
-        let place = || format!("participant {:?} of study {:?}", it.code, plan.name);
+    for (id, it) in db::participants(connection, study.id, code)? {
+        let place = || format!("participant {:?} of study {name:?}", it.code);
         let answers = db::answers(connection, id)?;
         all.push(Participant {
             format: ANSWERS_FORMAT.to_owned(),
             version: ANSWERS_VERSION,
-            study: plan.name.clone(),
-            plan_sha256: sha256.clone(),
+            study: name.clone(),
+            plan_sha256: study.sha256.clone(),
             profile: read(&it.profile, place)?,
             consent: read(&it.consent, place)?,
             device: read(&it.device, place)?,

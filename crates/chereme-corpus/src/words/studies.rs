@@ -47,6 +47,10 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
     ),
     ("a design has 1 to {n} blocks", "un plan a de 1 à {n} blocs"),
     (
+        "a participant would see {n} films; {most} are the most",
+        "un participant verrait {n} films ; {most} sont le maximum",
+    ),
+    (
         "each question needs a name of its own: {name}",
         "chaque question a besoin d’un nom à elle : {name}",
     ),

@@ -5,6 +5,10 @@ use proptest::prelude::*;
 use super::*;
 use crate::study::plan::tests::plan_of;
 
+fn item(plan: &Plan, trial: usize) -> &str {
+    &plan.trials[trial].item
+}
+
 proptest! {
     #[test]
     fn in_a_square_each_condition_follows_each_other_equally_often(k in 1_usize..12) {
@@ -99,6 +103,23 @@ fn over_all_rows_each_version_of_an_item_follows_each_other_equally_often() {
                 (conditions * (conditions - 1), 1)
             );
         }
+    }
+}
+
+#[test]
+fn the_largest_plan_is_put_in_order() {
+    for order in [Order::Latin, Order::Random] {
+        let names: Vec<(String, String)> = (0..500)
+            .map(|at| (format!("i{}", at % 2), format!("c{at}")))
+            .collect();
+        let mut plan = plan_of(&names);
+        plan.design.order = order;
+        plan.design.blocks = 2;
+        let all = rows(&plan);
+        assert_eq!(
+            (all.len(), all[0].len()),
+            (if order == Order::Latin { 96 } else { 48 }, 1000)
+        );
     }
 }
 

@@ -96,7 +96,7 @@ function readable(text) {
   try { it = JSON.parse(text); } catch { return null; }
   const whole = it && it.format === "chereme-answers" && it.version === 1 && it.plan_sha256 === data.plan_sha256
     && typeof it.participant === "string" && Number.isInteger(it.seed) && it.seed >= 0 && Array.isArray(it.answers)
-    && it.profile && typeof it.profile === "object" && it.consent && typeof it.consent === "object";
+    && it.answers.every((answer) => answer && Number.isInteger(answer.n)) && it.profile && typeof it.profile === "object" && it.consent && typeof it.consent === "object";
   return whole ? it : null;
 }
 
@@ -120,7 +120,7 @@ window.addEventListener("beforeunload", (event) => { if (dirty) event.preventDef
 function helpContent() {
   return [
     el("p", {}, t("how1")), el("p", {}, t("how2")), el("p", {}, t("how3")),
-    el("dl", { class: "keys" }, t("keys").map(([key, what]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, what)])),
+    el("dl", { class: "keys" }, t("keys").filter(([key]) => key !== "0" || data.questions.some((question) => question.cannot_say)).map(([key, what]) => [el("dt", {}, el("kbd", {}, key)), el("dd", {}, what)])),
   ];
 }
 
@@ -374,7 +374,7 @@ function field(question, given, give) {
   };
   return {
     question, box,
-    digit: (number) => pick(scale ? (number < scale.low || number > scale.high ? -1 : number - scale.low) : number - 1),
+    digit: (number) => number === 0 && question.cannot_say && !(scale && scale.low === 0) ? pick(inputs.length - 1) : pick(scale ? (number < scale.low || number > scale.high ? -1 : number - scale.low) : number - 1),
     focus: () => pick(0) && inputs[0].focus(),
   };
 }
