@@ -497,14 +497,30 @@ impl Corpus {
     pub fn report_study(&self, name: &str) -> Result<Report> {
         let study = self.study(name)?;
         let options = ReportOptions::default();
-        Ok(report(&study.plan, &study.participants, &options))
+        // The stored hash is the one that answers name, also if this version would write the plan in another form.
+        let sha256 = study.plan_sha256;
+        Ok(report_of(
+            &study.plan,
+            sha256,
+            &study.participants,
+            &options,
+        ))
     }
 }
 
 /// Makes the report of a study.
 #[must_use]
 pub fn report(plan: &Plan, participants: &[Participant], options: &ReportOptions) -> Report {
-    let (people, analysed) = people::sort_out(plan, participants);
+    report_of(plan, plan.sha256(), participants, options)
+}
+
+fn report_of(
+    plan: &Plan,
+    plan_sha256: String,
+    participants: &[Participant],
+    options: &ReportOptions,
+) -> Report {
+    let (people, analysed) = people::sort_out(plan, &plan_sha256, participants);
     let resampling = Resampling {
         times: options.resamples,
         seed: plan.design.seed,
@@ -517,7 +533,7 @@ pub fn report(plan: &Plan, participants: &[Participant], options: &ReportOptions
         program: env!("CARGO_PKG_VERSION"),
         study: plan.name.clone(),
         title: plan.title.clone(),
-        plan_sha256: plan.sha256(),
+        plan_sha256,
         resampling,
         people,
         questions: questions

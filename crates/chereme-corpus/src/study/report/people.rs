@@ -7,6 +7,7 @@ use crate::study::plan::{Exclusion, Plan, QuestionKind, Role, Texts};
 /// Returns the account of all participants, and those whose answers are analysed.
 pub(super) fn sort_out<'a>(
     plan: &Plan,
+    sha256: &str,
     participants: &'a [Participant],
 ) -> (People, Vec<&'a Participant>) {
     let mut excluded: Vec<Excluded> = Vec::new();
@@ -26,7 +27,6 @@ pub(super) fn sort_out<'a>(
     }
     let place = |it: &Excluded| reasons(plan).position(|reason| reason == it.reason);
     excluded.sort_by_key(place);
-    let sha256 = plan.sha256();
     let others = analysed.iter();
     let others = others.filter(|it| !it.plan_sha256.is_empty() && it.plan_sha256 != sha256);
     let people = People {
