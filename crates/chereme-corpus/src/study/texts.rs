@@ -136,7 +136,7 @@ const PROFILE: [Asked; 4] = [
         ["Are you …", "Êtes-vous …"],
         &[
             ["born-deaf", "deaf from birth", "sourd·e de naissance"],
-            ["became-deaf", "deaf since later", "devenu·e sourd·e"],
+            ["became-deaf", "became deaf later", "devenu·e sourd·e"],
             ["hard-of-hearing", "hard of hearing", "malentendant·e"],
             ["hearing", "hearing", "entendant·e"],
         ],
