@@ -3,4 +3,5 @@
 
 pub mod files;
 pub mod repository;
+pub mod study;
 pub mod workers;

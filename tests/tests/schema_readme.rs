@@ -4,6 +4,7 @@ use std::fs;
 
 use chereme_corpus::Corpus;
 use chereme_tests::repository;
+use chereme_tests::study::small_study;
 use chereme_tests::workers::small_corpus;
 use rusqlite::Connection;
 
@@ -38,6 +39,7 @@ fn corpus() -> (tempfile::TempDir, Connection) {
     let path = small_corpus(folder.path(), "small.chereme").expect("a corpus");
     let mut corpus = Corpus::open(&path, "maker").expect("opened");
     corpus.recombine("BOL | reverse", "LOB").expect("made");
+    small_study(&mut corpus, folder.path()).expect("a study");
     drop(corpus);
     let connection = Connection::open(path).expect("opened");
     (folder, connection)

@@ -86,15 +86,26 @@ fn corpora_of_earlier_versions_open_without_loss() {
                 "version {version}"
             );
         }
+        let studies = if version >= 10 { 2 } else { 0 };
+        if studies > 0 {
+            let study = corpus.study("bowls").expect("a study");
+            let right: Vec<Option<bool>> = study.participants[0]
+                .answers
+                .iter()
+                .map(|it| it.right)
+                .collect();
+            assert_eq!(study.plan.trials.len(), 2, "version {version}");
+            assert_eq!(right, [None, Some(true)], "version {version}");
+        }
         let operations = corpus.log(usize::MAX).expect("log").len();
-        assert_eq!(operations, 6 + kept + tracks, "version {version}");
+        assert_eq!(operations, 6 + kept + tracks + studies, "version {version}");
         corpus.redo().expect("what was undone is done again");
         corpus.undo().expect("and taken back");
         corpus.undo().expect("the made sign is taken back");
-        for _ in 0..kept + tracks {
+        for _ in 0..kept + tracks + studies {
             corpus
                 .undo()
-                .expect("kept search and tracks are taken back");
+                .expect("kept search, tracks and study are taken back");
         }
         corpus.undo().expect("the import is taken back");
         assert!(corpus.undo().is_err(), "version {version}");

@@ -11,7 +11,9 @@
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
 //! | [`nonmanuals`] | proposals for brows, lids, gaze, mouth and head from curves of a face |
 //! | [`phases`] | similarity of two expressions of the face, phase by phase |
+//! | [`random`] | random numbers from a seed |
 //! | [`score`](mod@score) | similarity of two performances, component by component, with their alignment |
+//! | [`statistics`] | tests, effects and intervals for answers of people |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
@@ -24,7 +26,9 @@ pub mod map;
 pub mod measure;
 pub mod nonmanuals;
 pub mod phases;
+pub mod random;
 pub mod score;
+pub mod statistics;
 pub mod strokes;
 pub mod transcribe;
 

@@ -486,6 +486,84 @@ fn commands(help: &str) -> Vec<(String, String)> {
 }
 
 #[test]
+fn a_study_is_planned_again_from_its_json_built_answered_and_forgotten() {
+    let desk = Desk::new();
+    let corpus = desk.corpus().display().to_string();
+    let folder = desk.folder.path();
+    let json = |line: String| -> serde_json::Value {
+        let done = desk.run(&format!("{line} --json"));
+        assert!(done.status.success(), "{line}: {}", text(&done.stderr));
+        serde_json::from_slice(&done.stdout).expect("JSON")
+    };
+    json(format!(
+        "study new {corpus} s --items BOL --condition 'captured={{}}' --ask realism --ask 'gloss=items CHAT'"
+    ));
+    let mut plan = json(format!("study show {corpus} s"));
+    plan["title"]["en"] = "Bowls".into();
+    fs::write(folder.join("plan.json"), plan.to_string()).expect("written");
+    let planned = json(format!("study new {corpus} s --plan plan.json"));
+    assert_eq!(planned["replaced"], true);
+    let built = json(format!(
+        "study build {corpus} s --to q --height 64 --rate 5"
+    ));
+    assert_eq!(built["films"], 1);
+    let page = fs::read_to_string(folder.join("q/index.html")).expect("the page");
+    assert!(page.contains("<title>Bowls</title>"));
+    let again = desk.run(&format!("study build {corpus} s --to q"));
+    assert!(
+        text(&again.stderr).contains("--force"),
+        "{}",
+        text(&again.stderr)
+    );
+    let answers = format!(
+        "participant,plan_sha256,n,item,condition,question,value\n\
+         heron,{0},1,BOL,captured,realism,5\nheron,{0},2,BOL,captured,realism,9\n",
+        planned["plan_sha256"].as_str().expect("a hash")
+    );
+    fs::write(folder.join("a.csv"), answers).expect("written");
+    let report = json(format!("study import {corpus} s a.csv"));
+    assert_eq!(
+        (&report["added"], &report["answers"]),
+        (&1.into(), &1.into())
+    );
+    assert_eq!(report["files"][0]["findings"][0]["line"], 3);
+    let french = desk.run(&format!("--language fr study import {corpus} s a.csv"));
+    assert!(
+        text(&french.stdout).contains("hors de l’échelle de 1 à 5"),
+        "{}",
+        text(&french.stdout)
+    );
+    fs::write(
+        folder.join("b.csv"),
+        "participant,plan_sha256,item,condition,question\nx,0,BOL,captured,realism\n",
+    )
+    .expect("written");
+    let refused = desk.run(&format!("study import {corpus} s b.csv --json"));
+    assert_eq!(refused.status.code(), Some(1));
+    json(format!("study answers {corpus} s --to all.csv"));
+    let report = json(format!("study report {corpus} s"));
+    assert_eq!(report["people"]["analysed"], 1);
+    let counts = &report["questions"][0]["conditions"][0]["counts"];
+    assert_eq!(*counts, serde_json::json!([0, 0, 0, 0, 1]));
+    let written = desk.run(&format!("study report {corpus} s --to report"));
+    assert!(written.status.success(), "{}", text(&written.stderr));
+    let page = fs::read_to_string(folder.join("report/report.html")).expect("the page");
+    assert!(page.contains("<h1>Bowls</h1>"));
+    let again = desk.run(&format!("study report {corpus} s --to report"));
+    assert!(text(&again.stderr).contains("--force"));
+    json(format!("study forget {corpus} s heron"));
+    assert_eq!(
+        json(format!("list {corpus} studies"))["rows"][0]["participants"],
+        0
+    );
+    json(format!("undo {corpus}"));
+    assert_eq!(
+        json(format!("list {corpus} studies"))["rows"][0]["answers"],
+        1
+    );
+}
+
+#[test]
 fn a_closed_output_pipe_is_no_error() {
     let desk = Desk::new();
     let mut child = Command::new(env!("CARGO_BIN_EXE_chereme"))

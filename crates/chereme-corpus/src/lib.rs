@@ -50,6 +50,7 @@ mod score;
 pub(crate) mod search;
 mod sources;
 mod starter;
+pub mod study;
 mod suggest;
 mod tokens;
 mod track;

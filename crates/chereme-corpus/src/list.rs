@@ -44,13 +44,15 @@ pub enum ListKind {
     Signers,
     /// Saved searches.
     Searches,
+    /// Perceptual studies.
+    Studies,
     /// Operations, newest first.
     Operations,
 }
 
 impl ListKind {
     /// Every kind.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Recordings,
         Self::Tracks,
         Self::Signs,
@@ -61,6 +63,7 @@ impl ListKind {
         Self::Values,
         Self::Signers,
         Self::Searches,
+        Self::Studies,
         Self::Operations,
     ];
 
@@ -78,6 +81,7 @@ impl ListKind {
             Self::Values => "values",
             Self::Signers => "signers",
             Self::Searches => "searches",
+            Self::Studies => "studies",
             Self::Operations => "operations",
         }
     }
@@ -96,6 +100,7 @@ impl ListKind {
         match self {
             Self::Inventories => "inventory",
             Self::Searches => "search",
+            Self::Studies => "study",
             other => other.name().trim_end_matches('s'),
         }
     }
@@ -112,6 +117,7 @@ impl ListKind {
             Self::Values => &rows::VALUES,
             Self::Signers => &rows::SIGNERS,
             Self::Searches => &rows::SEARCHES,
+            Self::Studies => &rows::STUDIES,
             Self::Operations => &rows::OPERATIONS,
         }
     }

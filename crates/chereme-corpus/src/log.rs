@@ -14,7 +14,7 @@ use crate::db::history::{self, RowChange};
 use crate::error::{Error, Result};
 
 /// The tables that the user knows, each with the noun for a row and the column with its name.
-const KNOWN: [(&str, &str, &str); 11] = [
+const KNOWN: [(&str, &str, &str); 13] = [
     ("annotation", "annotation", "value"),
     ("tier", "tier", "name"),
     ("recording", "recording", "name"),
@@ -24,6 +24,8 @@ const KNOWN: [(&str, &str, &str); 11] = [
     ("inventory", "inventory", "key"),
     ("inventory_value", "value", "key"),
     ("kept_search", "search", "name"),
+    ("study", "study", "name"),
+    ("study_participant", "participant", "code"),
     ("recipe", "recipe", "text"),
     ("notation", "notation", "system"),
 ];

@@ -222,7 +222,8 @@ impl SignMap {
     }
 }
 
-fn escaped(text: &str) -> String {
+/// Returns a text as it stands in SVG and HTML, without control letters.
+pub(crate) fn escaped(text: &str) -> String {
     text.chars()
         .filter(|c| !c.is_control())
         .map(|c| match c {

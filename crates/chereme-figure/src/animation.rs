@@ -38,6 +38,10 @@ pub struct AnimationOptions {
     pub palette: Palette,
     /// Paper, light and lines.
     pub style: Style,
+    /// The space that the pictures show; by default that of the clip's own signing.
+    pub framing: Option<Framing>,
+    /// Whether a bar at the lower edge shows how much was played.
+    pub bar: bool,
 }
 
 impl Default for AnimationOptions {
@@ -51,11 +55,18 @@ impl Default for AnimationOptions {
             speed: 1.0,
             palette: Palette::default(),
             style: Style::default(),
+            framing: None,
+            bar: true,
         }
     }
 }
 
 impl AnimationOptions {
+    /// Returns the height of the progress bar in pixels.
+    fn bar(&self) -> usize {
+        if self.bar { BAR } else { 0 }
+    }
+
     /// Returns the time for which a picture is shown, in seconds.
     fn seconds(&self) -> f64 {
         match self.rate {
@@ -129,11 +140,12 @@ impl<'a> Animation<'a> {
         anatomy: &'a Anatomy,
         options: AnimationOptions,
     ) -> Result<Self, FigureError> {
-        let framing = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+        let own = Framing::of(clip, anatomy).ok_or(FigureError::Empty)?;
+        let framing = options.framing.unwrap_or(own);
         if options.views.is_empty() {
             return Err(FigureError::Nothing { what: "view" });
         }
-        let room = options.height.saturating_sub(BAR);
+        let room = options.height.saturating_sub(options.bar());
         let width = |&view: &View| (framing.aspect(view).clamp(0.45, 2.0) * room as f32) as usize;
         let columns: Vec<usize> = options.views.iter().map(width).collect();
         for &column in &columns {
@@ -206,7 +218,7 @@ impl<'a> Animation<'a> {
         if let Some(face) = Face::at(&self.options.faces, self.clip.rate(), instant) {
             self.body.express(pose, &face, &mut self.mesh);
         }
-        let room = self.size[1] - BAR;
+        let room = self.size[1] - self.options.bar();
         let mut x = 0;
         for (&view, &width) in self.options.views.iter().zip(&self.columns) {
             let camera = self
@@ -221,10 +233,12 @@ impl<'a> Animation<'a> {
             }
             x += width;
         }
-        let played = self.size[0] * (frame + 1) / self.frames;
-        let bar = |width: usize| [width as i64, BAR as i64];
-        image.fill([0, room as i64], bar(self.size[0]), theme.rule());
-        image.fill([0, room as i64], bar(played), theme.text());
+        if self.options.bar {
+            let played = self.size[0] * (frame + 1) / self.frames;
+            let bar = |width: usize| [width as i64, BAR as i64];
+            image.fill([0, room as i64], bar(self.size[0]), theme.rule());
+            image.fill([0, room as i64], bar(played), theme.text());
+        }
         image
     }
 }

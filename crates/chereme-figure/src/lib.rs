@@ -83,5 +83,5 @@ pub use points::{PointCloud, points_sheet};
 pub use points_film::{PointsAnimation, PointsOptions};
 pub use sheet::{Frames, Progress, SheetOptions, contact_sheet, thumbnail, thumbnail_with_face};
 pub use strip::{Caption, Strip};
-pub use view::{Framing, View, has_hand_up, signed, stroke};
+pub use view::{Framing, Reach, View, has_hand_up, signed, stroke};
 pub use writer::write_png;

@@ -1,5 +1,7 @@
 //! Camera presets, and the space of a clip's signing.
 
+mod reach;
+
 use std::ops::Range;
 
 use chereme_motion::ends::Ends;
@@ -7,6 +9,8 @@ use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
 use glam::{Mat3, Vec3};
 
 use crate::camera::Camera;
+
+pub use reach::Reach;
 
 /// A direction of view onto the signer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -12,7 +12,7 @@ use std::process::ExitCode;
 use chereme_corpus::{Corpus, KeptSearch, Name, NewTrack, Track};
 use chereme_motion::column::{Column, Gaps};
 use chereme_motion::{Convention, Curve, Curves, Marker, Markers, Rate, Space, Times};
-use chereme_tests::{repository, workers};
+use chereme_tests::{repository, study, workers};
 
 fn main() -> ExitCode {
     let Some(folder) = std::env::args_os().nth(1).map(PathBuf::from) else {
@@ -68,6 +68,7 @@ fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
         query: "right.configuration=S placement=chin".to_owned(),
     }])?;
     corpus.add_tracks(&Name::Text("bowl and cat".to_owned()), &tracks()?)?;
+    study::small_study(&mut corpus, desk.path())?;
     corpus.recombine("BOL | reverse", "LOB")?;
     corpus.undo()?;
     corpus.redo()?;

@@ -435,7 +435,7 @@ fn without_repetition(findings: &[ReportFinding]) -> (Vec<&ReportFinding>, usize
     (shown, more)
 }
 
-fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
+pub(super) fn print_finding(finding: &ReportFinding, output: &mut Output) -> Result<()> {
     let line = match finding.line {
         Some(line) => fill(output.say(trouble::LINE), &[("n", &line)]),
         None => String::new(),

@@ -12,7 +12,7 @@ use crate::output::Output;
 use crate::words::Words;
 use crate::words::kinds;
 
-/// List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations
+/// List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, studies, operations
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
@@ -209,8 +209,8 @@ pub(super) const WORDS: Words = Words {
             "Donner un aperçu d’un corpus",
         ),
         (
-            "List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, operations",
-            "Lister : enregistrements (recordings), pistes (tracks), signes (signs), occurrences (tokens), acteurs (tiers), annotations, inventaires (inventories), valeurs (values), signeurs (signers), recherches (searches), opérations (operations)",
+            "List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, studies, operations",
+            "Lister : enregistrements (recordings), pistes (tracks), signes (signs), occurrences (tokens), acteurs (tiers), annotations, inventaires (inventories), valeurs (values), signeurs (signers), recherches (searches), études (studies), opérations (operations)",
         ),
     ],
     lines: &[

@@ -30,6 +30,7 @@ mod render;
 mod score;
 mod search;
 mod studio;
+mod study;
 mod suggest;
 mod tiers;
 mod track;
@@ -101,6 +102,7 @@ commands! {
     Diff => diff::run(Args);
     Merge => merge::merge(MergeArgs);
     Conflicts => merge::conflicts(ConflictsArgs);
+    Study => study::run(Args) or offer_force;
     Export => export::run(Args) or offer_force;
     Undo => history::undo(UndoArgs);
     Redo => history::redo(RedoArgs);

@@ -10,7 +10,7 @@ use super::open;
 use crate::error::Result;
 
 /// The tables that a reader of the data needs, each after those it refers to.
-pub(crate) const TABLES: [&str; 24] = [
+pub(crate) const TABLES: [&str; 27] = [
     "meta",
     "signer",
     "skeleton",
@@ -34,6 +34,9 @@ pub(crate) const TABLES: [&str; 24] = [
     "recipe",
     "recipe_input",
     "kept_search",
+    "study",
+    "study_participant",
+    "study_answer",
     "operation",
 ];
 

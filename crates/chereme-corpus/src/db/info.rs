@@ -8,7 +8,7 @@ use serde::Serialize;
 use crate::db::rows::{InventoryInfo, SignerInfo};
 use crate::error::Result;
 
-const KINDS: [(&str, &str); 17] = [
+const KINDS: [(&str, &str); 20] = [
     ("recordings", "recording"),
     ("tracks", "track"),
     (
@@ -31,6 +31,9 @@ const KINDS: [(&str, &str); 17] = [
     ("attributes", "attribute"),
     ("recipes", "recipe"),
     ("searches", "kept_search"),
+    ("studies", "study"),
+    ("participants", "study_participant"),
+    ("answers", "study_answer"),
     ("operations", "operation"),
 ];
 

@@ -354,6 +354,31 @@ pub(crate) const SEARCHES: Table = Table {
     order: "k.name",
 };
 
+pub(crate) const STUDIES: Table = Table {
+    columns: &[
+        number("id", "s.id"),
+        text("name", "s.name"),
+        number("trials", "json_array_length(s.plan, '$.trials')"),
+        number("questions", "json_array_length(s.plan, '$.questions')"),
+        number(
+            "participants",
+            "(SELECT count(*) FROM study_participant p WHERE p.study_id = s.id)",
+        ),
+        number(
+            "finished",
+            "(SELECT count(*) FROM study_participant p WHERE p.study_id = s.id AND p.finished)",
+        ),
+        number(
+            "answers",
+            "(SELECT count(*) FROM study_answer a JOIN study_participant p ON p.id = a.participant_id
+              WHERE p.study_id = s.id)",
+        ),
+        text("plan_sha256", "s.plan_sha256"),
+    ],
+    from: "study s",
+    order: "s.name",
+};
+
 pub(crate) const OPERATIONS: Table = Table {
     columns: &[
         number("id", "o.id"),

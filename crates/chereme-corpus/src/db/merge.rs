@@ -313,7 +313,7 @@ pub(crate) fn delete(connection: &Connection, table: &str, id: i64) -> Result<()
 /// Returns the existing row with the same unique name as another one, if there is one.
 pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> Result<Option<i64>> {
     let keys: &[&str] = match table {
-        "signer" | "kept_search" | "recording" => &["name"],
+        "signer" | "kept_search" | "recording" | "study" => &["name"],
         "skeleton" => &["hash"],
         "inventory" => &["key"],
         "inventory_value" => &["inventory_id", "key"],
@@ -323,6 +323,8 @@ pub(crate) fn namesake(connection: &Connection, table: &str, image: &Image) -> R
         "notation" => &["token_id"],
         "recipe" => &["recording_id"],
         "channel" => &["track_id", "position"],
+        "study_participant" => &["study_id", "code"],
+        "study_answer" => &["participant_id", "n", "question"],
         _ => return Ok(None),
     };
     let conditions: Vec<String> = keys

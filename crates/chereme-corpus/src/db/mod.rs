@@ -26,6 +26,7 @@ pub(crate) mod saved_searches;
 pub(crate) mod search;
 pub(crate) mod signs;
 pub(crate) mod spans;
+pub(crate) mod studies;
 pub(crate) mod tiers;
 pub(crate) mod tracks;
 pub(crate) mod upgrade;

@@ -47,7 +47,7 @@ pub struct MergeReport {
 
 /// The tables that are merged; a table comes after those it refers to. Tokens of annotations are not merged but
 /// derived.
-const ORDER: [&str; 16] = [
+const ORDER: [&str; 19] = [
     "signer",
     "skeleton",
     "inventory",
@@ -64,6 +64,9 @@ const ORDER: [&str; 16] = [
     "kept_search",
     "attribute",
     "notation",
+    "study",
+    "study_participant",
+    "study_answer",
 ];
 
 impl Corpus {

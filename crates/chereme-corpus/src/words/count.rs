@@ -3,8 +3,9 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 30] = [
+const NOUNS: [(&str, &str, &str, &str); 33] = [
     ("annotations", "annotation", "annotation", "annotations"),
+    ("answers", "answer", "réponse", "réponses"),
     ("attributes", "attribute", "attribut", "attributs"),
     ("blocks", "block", "bloc", "blocs"),
     ("changes", "change", "modification", "modifications"),
@@ -25,6 +26,7 @@ const NOUNS: [(&str, &str, &str, &str); 30] = [
     ("media", "media file", "média", "médias"),
     ("notations", "notation", "notation", "notations"),
     ("operations", "operation", "opération", "opérations"),
+    ("participants", "participant", "participant", "participants"),
     (
         "pairs of frames",
         "pair of frames",
@@ -44,6 +46,7 @@ const NOUNS: [(&str, &str, &str, &str); 30] = [
     ("signers", "signer", "signeur", "signeurs"),
     ("signs", "sign", "signe", "signes"),
     ("skeletons", "skeleton", "squelette", "squelettes"),
+    ("studies", "study", "étude", "études"),
     ("symbols", "symbol", "symbole", "symboles"),
     ("tiers", "tier", "acteur", "acteurs"),
     ("tokens", "token", "occurrence", "occurrences"),

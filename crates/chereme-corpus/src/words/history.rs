@@ -70,6 +70,10 @@ texts! {
     DID_MERGE_VALUES: "Value {value} merged into {into} in {place}", "Valeur {value} fusionnée avec {into} dans {place}";
     DID_KEEP_SEARCH: "Search saved: {what}", "Recherche enregistrée : {what}";
     DID_RENAME_SEARCH: "Search renamed: {what}", "Recherche renommée : {what}";
+    DID_PLAN_STUDY: "Study planned: {what}", "Étude préparée : {what}";
+    DID_IMPORT_ANSWERS: "Answers imported: {what}", "Réponses importées : {what}";
+    DID_FORGET_PARTICIPANT: "Participant of a study deleted: {what}", "Participant d’une étude supprimé : {what}";
+    DID_DELETE_STUDY: "Study deleted: {what}", "Étude supprimée : {what}";
     DID_DELETE: "Deleted: {what}", "Supprimé : {what}";
     BACK_AGAIN: "Restored: {what}", "Rétabli : {what}";
     DID_FORGET_SEARCH: "Saved search removed: {what}", "Recherche enregistrée supprimée : {what}";
@@ -163,6 +167,10 @@ fn plain(name: &str) -> Option<Text> {
         "rename search" => DID_RENAME_SEARCH,
         "forget search" => DID_FORGET_SEARCH,
         "delete" => DID_DELETE,
+        "plan study" => DID_PLAN_STUDY,
+        "import answers" => DID_IMPORT_ANSWERS,
+        "forget participant" => DID_FORGET_PARTICIPANT,
+        "delete study" => DID_DELETE_STUDY,
         _ => return None,
     })
 }

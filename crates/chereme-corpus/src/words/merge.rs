@@ -43,6 +43,9 @@ texts! {
     INVENTORY_VALUE: "inventory value", "valeur d’inventaire";
     RECIPE: "recipe", "recette";
     SEARCH: "saved search", "recherche enregistrée";
+    STUDY: "study", "étude";
+    PARTICIPANT: "participant of a study", "participant d’une étude";
+    ANSWER: "answer of a study", "réponse d’une étude";
     ROW: "row", "ligne";
     DID_MERGE: "Merged {what}", "Fusionné {what}";
     DID_DECIDE: "Decided {what}", "Décidé {what}";
@@ -68,6 +71,9 @@ pub fn kind(table: &str) -> Text {
         ("inventory_value", INVENTORY_VALUE),
         ("recipe", RECIPE),
         ("kept_search", SEARCH),
+        ("study", STUDY),
+        ("study_participant", PARTICIPANT),
+        ("study_answer", ANSWER),
     ];
     let found = kinds.into_iter().find(|(name, _)| *name == table);
     found.map_or(ROW, |it| it.1)

@@ -24,6 +24,8 @@ use super::moving::MOVING;
 use super::notes::NOTES;
 use super::queries::QUERIES;
 use super::reading::READING;
+use super::reporting::REPORTS;
+use super::studies::STUDIES;
 use crate::import::readers::endings;
 
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
@@ -521,6 +523,8 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(COMPOSING)
         .chain(CODING)
         .chain(READING)
+        .chain(STUDIES)
+        .chain(REPORTS)
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)

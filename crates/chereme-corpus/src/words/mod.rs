@@ -43,6 +43,8 @@ mod moving;
 mod notes;
 mod queries;
 mod reading;
+pub mod reporting;
+mod studies;
 pub mod trouble;
 
 /// Returns `text` with each `{name}` replaced by its value in `values`.
@@ -59,11 +61,12 @@ pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 5] = [
+    const TABLES: [&[(&str, Text)]; 6] = [
         deeds::ALL,
         deletion::ALL,
         history::ALL,
         merge::ALL,
+        reporting::ALL,
         trouble::ALL,
     ];
 

@@ -6,7 +6,7 @@ use serde_json::Value;
 use crate::error::Result;
 
 /// The tables whose rows are recorded, and for each the columns that refer to a row with a uid.
-pub(in crate::db) const TRACKED: [(&str, &[(&str, &str)]); 21] = [
+pub(in crate::db) const TRACKED: [(&str, &[(&str, &str)]); 24] = [
     ("meta", &[]),
     ("signer", &[]),
     ("skeleton", &[]),
@@ -65,6 +65,9 @@ pub(in crate::db) const TRACKED: [(&str, &[(&str, &str)]); 21] = [
         ],
     ),
     ("kept_search", &[]),
+    ("study", &[]),
+    ("study_participant", &[("study_id", "study")]),
+    ("study_answer", &[("participant_id", "study_participant")]),
 ];
 
 /// Changes that affect what the search index stores about tokens: table, event, and the affected tokens.

@@ -1,0 +1,425 @@
+//! `chereme study`: perceptual studies, from the plan to the answers.
+
+mod french;
+mod report;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use anyhow::Result;
+use chereme_corpus::study::plan::{
+    Design, Order, Plan, Question, QuestionKind, Texts, Viewing, text_in,
+};
+use chereme_corpus::study::{AnswersFile, QuestionnaireOptions, StudyRequest, words};
+use chereme_corpus::{Corpus, FileStatus, Progress, Step};
+use clap::{Subcommand, ValueEnum};
+
+use super::import::print_finding;
+use crate::args::{Cli, read_text};
+use crate::output::{Bar, Output};
+
+pub(super) use french::WORDS;
+
+/// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
+///
+/// A study shows clips of the corpus to people and asks about them. `new` stores a plan, `build` makes a folder with one
+/// page and its films. The page works in a browser without a network, in English and French, by mouse or keyboard;
+/// people answer it and send back the file that it saves. `import` brings the files into the corpus, and `report`
+/// says what the answers show.
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme study new lsf.chereme places --items 'BOL CHAT' --condition 'captured={}' --condition 'higher={} | place both by up 10cm' --ask realism --ask 'gloss=items ESCARGOT LIMACE'
+  chereme study new lsf.chereme pointing --trials trials.csv --ask 'place@bowls=left right' --ask realism
+  chereme study build lsf.chereme places --to places/
+  chereme study import lsf.chereme places answers/
+  chereme study answers lsf.chereme places --to answers.csv
+  chereme study report lsf.chereme places --to report.html")]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    action: Action,
+}
+
+#[derive(Debug, Subcommand)]
+enum Action {
+    /// Plan a study: items in conditions, or a table of trials, and questions
+    ///
+    /// A plan that nobody has answered is replaced. For texts, labels, pictures, hypotheses and exclusions, edit the JSON
+    /// that `chereme study show CORPUS NAME --json` prints, and give it back with --plan.
+    New(Box<NewArgs>),
+    /// Show the plan of a study; with --json as a file for --plan
+    Show {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+    },
+    /// Build the questionnaire: a folder with one page and its films
+    ///
+    /// All films have the same body, camera, size and background; the first and the last picture stand still for half a
+    /// second. Films in sign language can be put into the folder media beside them: consent, instructions, end,
+    /// question-NAME and profile-NAME, as .mp4 or .webm, or as NAME.fr.mp4 for one language. The page sends nothing
+    /// anywhere. A number in its address, as index.html?n=12, gives participant 12 the order of that number; without it
+    /// an order is drawn.
+    Build {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+        /// The folder
+        #[arg(long, value_name = "FOLDER")]
+        to: PathBuf,
+        /// The height of films in pixels, from 64 to 1080
+        #[arg(long, default_value_t = 540, value_name = "PIXELS", value_parser = clap::value_parser!(u16).range(64..=1080))]
+        height: u16,
+        /// The number of pictures per second, from 1 to 120
+        #[arg(long, default_value_t = 25, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=120))]
+        rate: u32,
+        /// Replace a questionnaire that exists already; other files in its folder stay
+        #[arg(long)]
+        force: bool,
+    },
+    /// Import answers: files that the questionnaire saved, tables with one answer a row, folders of both
+    ///
+    /// Answers to another plan, to unknown trials, or outside a scale are left out and reported. Later answers replace
+    /// those of a participant who had not finished. The same file twice changes nothing.
+    Import {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+        /// The files or folders
+        #[arg(required = true, value_name = "FILE")]
+        files: Vec<PathBuf>,
+    },
+    /// Write all answers as a table (.csv), one answer a row
+    Answers {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+        /// The table to write
+        #[arg(long, value_name = "FILE")]
+        to: PathBuf,
+        /// Replace a file that exists already
+        #[arg(long)]
+        force: bool,
+    },
+    Report(report::Args),
+    /// Delete a participant with all answers, because the person asks for it
+    ///
+    /// The answers leave the study and every export, but not the file: the history keeps them, so that undo can restore
+    /// them, and copies of the corpus made earlier have them too. If nothing may remain, import the other answers into a
+    /// corpus that never had these.
+    Forget {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+        /// The code that the participant chose
+        code: String,
+    },
+    /// Delete a study with all its answers; undo restores it
+    Delete {
+        /// The corpus
+        corpus: PathBuf,
+        /// The name of the study
+        name: String,
+    },
+}
+
+#[derive(Debug, clap::Args)]
+struct NewArgs {
+    /// The corpus
+    corpus: PathBuf,
+    /// The name of the study
+    name: String,
+    /// A plan as JSON, instead of all other options; - is standard input
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["title", "items", "conditions", "trials", "asks"])]
+    plan: Option<PathBuf>,
+    /// The title that participants see; without it the name
+    #[arg(long, value_name = "TEXT")]
+    title: Option<String>,
+    /// The items, separated by blanks
+    #[arg(long, value_name = "ITEMS", requires = "conditions")]
+    items: Option<String>,
+    /// A condition: its name, and a recipe with {} for the item; may be repeated
+    #[arg(long = "condition", value_name = "NAME=RECIPE", value_parser = condition, requires = "items")]
+    conditions: Vec<(String, String)>,
+    /// A table of trials with the columns item, condition, clip, and if wished role (training, main, check), part,
+    /// answer; other columns are measures of the clip
+    #[arg(long, value_name = "FILE")]
+    trials: Option<PathBuf>,
+    /// A question: realism, realism=1-7, gloss=items (the items as options), 'place=left right', or place@PART=… for one
+    /// part of the study; may be repeated
+    #[arg(long = "ask", value_name = "QUESTION")]
+    asks: Vec<String>,
+    /// The highest answer of scales, from 2 to 9
+    #[arg(long, default_value_t = 5, value_name = "N", value_parser = clap::value_parser!(i64).range(2..=9))]
+    scale: i64,
+    /// The order of conditions
+    #[arg(long, value_enum, default_value_t = OrderWord::Latin)]
+    order: OrderWord,
+    /// The seed of all shuffles
+    #[arg(long, default_value_t = 1, value_name = "N")]
+    seed: u64,
+    /// How often each trial is shown, from 1 to 20
+    #[arg(long, default_value_t = 1, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=20))]
+    blocks: u32,
+    /// Show each item to a participant in one condition only
+    #[arg(long)]
+    between: bool,
+    /// Add the measure distance to each trial: the distance of its clip from that of the same item in this condition, as
+    /// in `chereme score`; the report correlates answers with it
+    #[arg(long, value_name = "CONDITION")]
+    distance_from: Option<String>,
+}
+
+/// The order of conditions.
+#[derive(Debug, Clone, Copy, ValueEnum)]
+enum OrderWord {
+    /// Balanced Latin square: each condition follows each other equally often
+    Latin,
+    /// Shuffled
+    Random,
+}
+
+/// Parses a condition.
+fn condition(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((name, recipe)) if !name.trim().is_empty() && !recipe.trim().is_empty() => {
+            Ok((name.trim().to_owned(), recipe.trim().to_owned()))
+        }
+        _ => Err("write a name, =, and a recipe with {} for the item: 'captured={}'".to_owned()),
+    }
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
+    match &args.action {
+        Action::Import {
+            corpus,
+            name,
+            files,
+        } => import(cli, (corpus, name), files, output),
+        other => act(cli, other, output).map(|()| ExitCode::SUCCESS),
+    }
+}
+
+fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let mut progress = Progress::new(&mut hear);
+    match action {
+        Action::New(new) => plan(cli, new, &mut progress, output),
+        Action::Show { corpus, name } => {
+            let study = cli.open(corpus)?.study(name)?;
+            show(&study.plan, output)?;
+            if !study.participants.is_empty() {
+                let count = output.counted(study.participants.len() as u64, "participants");
+                output.line(format!("answered by {count}"))?;
+            }
+            output.document(study.plan)
+        }
+        Action::Build {
+            corpus,
+            name,
+            to,
+            height,
+            rate,
+            force,
+        } => {
+            let options = QuestionnaireOptions {
+                height: usize::from(*height),
+                rate: *rate,
+                force: *force,
+            };
+            let done = cli
+                .open(corpus)?
+                .build_study(name, to, options, &mut progress)?;
+            drop(bar);
+            output.line(format!(
+                "questionnaire {}: {} films, {} orders of trials, {} KB",
+                done.page.display(),
+                done.films,
+                done.orders,
+                done.bytes.div_ceil(1000)
+            ))?;
+            for picture in &done.missing {
+                output.warn(&format!(
+                    "the plan names a picture that is missing: {}",
+                    picture.display()
+                ))?;
+            }
+            for [one, other] in &done.alike {
+                output.warn(&format!("these clips give the same film: {one}; {other}"))?;
+            }
+            output.document(done)
+        }
+        // Its exit code is its own.
+        Action::Import { .. } => Ok(()),
+        Action::Answers {
+            corpus,
+            name,
+            to,
+            force,
+        } => {
+            let count = cli.open(corpus)?.export_answers(name, to, *force)?;
+            output.line(format!("wrote {count} answers to {}", to.display()))?;
+            output.document(serde_json::json!({ "path": to, "answers": count }))
+        }
+        Action::Report(args) => report::run(cli, args, output),
+        Action::Forget { corpus, name, code } => {
+            cli.open(corpus)?.forget_participant(name, code)?;
+            output.line(format!(
+                "deleted {code}; undo restores the answers, so the file still holds them"
+            ))?;
+            output.document(serde_json::json!({ "study": name, "participant": code }))
+        }
+        Action::Delete { corpus, name } => {
+            cli.open(corpus)?.delete_study(name)?;
+            output.line(format!("deleted the study {name}"))?;
+            output.document(serde_json::json!({ "study": name }))
+        }
+    }
+}
+
+/// Imports answers; nothing but refused files is a failure.
+fn import(
+    cli: &Cli,
+    (corpus, name): (&PathBuf, &str),
+    files: &[PathBuf],
+    output: &mut Output,
+) -> Result<ExitCode> {
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let progress = &mut Progress::new(&mut hear);
+    let report = cli.open(corpus)?.import_answers(name, files, progress)?;
+    drop(bar);
+    for file in &report.files {
+        if file.findings.is_empty() && file.status != FileStatus::Refused {
+            continue;
+        }
+        let refused = match file.status {
+            FileStatus::Refused => ": REFUSED",
+            _ => "",
+        };
+        output.line(format!("{}{refused}", file.path))?;
+        for finding in &file.findings {
+            print_finding(finding, output)?;
+        }
+    }
+    output.line(format!(
+        "{}: {} new, {} replaced, {} unchanged; {} answers stored",
+        output.counted(report.files.len() as u64, "files"),
+        report.added,
+        report.replaced,
+        report.unchanged,
+        report.answers
+    ))?;
+    let refused = |it: &AnswersFile| it.status == FileStatus::Refused;
+    let code = match report.files.iter().all(refused) {
+        true => ExitCode::FAILURE,
+        false => ExitCode::SUCCESS,
+    };
+    output.document(report)?;
+    Ok(code)
+}
+
+fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Output) -> Result<()> {
+    let named = |path: &PathBuf| -> Result<(String, String)> {
+        Ok((read_text(path)?, path.display().to_string()))
+    };
+    let mut corpus = cli.open(&args.corpus)?;
+    let mut plan = match &args.plan {
+        Some(path) => {
+            let (text, place) = named(path)?;
+            let mut plan = Corpus::read_plan(&text, &place)?;
+            plan.name.clone_from(&args.name);
+            plan
+        }
+        None => {
+            let request = StudyRequest {
+                name: args.name.clone(),
+                title: args.title.clone(),
+                items: args.items.as_deref().map(words).unwrap_or_default(),
+                conditions: args.conditions.clone(),
+                trials: args.trials.as_ref().map(named).transpose()?,
+                questions: args.asks.clone(),
+                scale: args.scale,
+                design: Design {
+                    order: match args.order {
+                        OrderWord::Latin => Order::Latin,
+                        OrderWord::Random => Order::Random,
+                    },
+                    seed: args.seed,
+                    blocks: args.blocks,
+                    between: args.between,
+                },
+            };
+            request.plan()?
+        }
+    };
+    if let Some(condition) = &args.distance_from {
+        corpus.measure_distances(&mut plan, condition, progress)?;
+    }
+    let done = corpus.plan_study(&plan, progress)?;
+    show(&done.plan, output)?;
+    output.line(match done.replaced {
+        true => "replaced the plan, which nobody had answered",
+        false => "stored the plan",
+    })?;
+    output.document(done)
+}
+
+fn show(plan: &Plan, output: &mut Output) -> Result<()> {
+    let language = output.language().code();
+    let said = |texts: &Texts| text_in(texts, language).unwrap_or_default().to_owned();
+    output.line(format!("{}: {}", plan.name, said(&plan.title)))?;
+    let rows: Vec<Vec<String>> = plan
+        .trials
+        .iter()
+        .map(|it| {
+            let right: Vec<&str> = it.right.values().map(String::as_str).collect();
+            vec![
+                it.part.clone(),
+                it.role.name().to_owned(),
+                it.item.clone(),
+                it.condition.clone(),
+                right.join(" "),
+                it.clip.clone(),
+            ]
+        })
+        .collect();
+    output.table(
+        &["part", "role", "item", "condition", "right answer", "clip"],
+        &rows,
+    )?;
+    let rows: Vec<Vec<String>> = plan
+        .questions
+        .iter()
+        .map(|it| {
+            vec![
+                it.name.clone(),
+                answers(it),
+                it.parts.join(" "),
+                said(&it.text),
+            ]
+        })
+        .collect();
+    output.table(&["question", "answers", "parts", "text"], &rows)
+}
+
+/// Returns the possible answers to a question in short.
+fn answers(question: &Question) -> String {
+    let answers = match &question.kind {
+        QuestionKind::Scale { low, high, .. } => format!("{low}-{high}"),
+        QuestionKind::Choice { options } => {
+            let names: Vec<&str> = options.iter().map(|it| it.name.as_str()).collect();
+            names.join(" ")
+        }
+    };
+    match question.after {
+        Viewing::First => answers,
+        Viewing::Second => format!("{answers} (2)"),
+    }
+}

@@ -1,0 +1,70 @@
+//! Tables as people save them: titles, and rows with their lines.
+
+use crate::error::{Error, Result};
+
+/// The largest number of rows.
+const MOST: usize = 1_000_000;
+
+/// A table of text.
+pub(super) struct Table {
+    /// The titles of the columns.
+    pub(super) titles: Vec<String>,
+    /// The rows that are not empty, each with its line, from 1; as many cells as there are titles.
+    pub(super) rows: Vec<(u64, Vec<String>)>,
+}
+
+/// Reads a table with a row of titles; commas, semicolons or tabs separate its cells.
+pub(super) fn table(text: &str, file: &str) -> Result<Table> {
+    let text = text.trim_start_matches('\u{feff}');
+    let first = text.lines().next().unwrap_or_default();
+    let separators = [b',', b';', b'\t'];
+    let count = |byte: &u8| first.bytes().filter(|it| it == byte).count();
+    let separator = separators.into_iter().max_by_key(count).unwrap_or(b',');
+    let mut reader = csv::ReaderBuilder::new()
+        .delimiter(separator)
+        .flexible(true)
+        .from_reader(text.as_bytes());
+    let fault = |error: csv::Error| {
+        let line = error.position().map_or(1, csv::Position::line);
+        Error::wrong(format!("the table cannot be read: {error}"))
+            .at(format!("{file}, line {line}"))
+    };
+    let titles: Vec<String> = reader
+        .headers()
+        .map_err(fault)?
+        .iter()
+        .map(|it| it.trim().to_owned())
+        .collect();
+    let mut rows = Vec::new();
+    let (mut line, mut counted) = (1, 0);
+    for record in reader.records() {
+        let record = record.map_err(fault)?;
+        // A record's own line is that before its line feed, if a carriage return precedes that.
+        let start = record.position().map_or(0, |it| it.byte() as usize);
+        let blank = text.as_bytes()[start..].iter();
+        let start = start + blank.take_while(|it| b"\r\n".contains(it)).count();
+        let passed = &text.as_bytes()[counted..start];
+        line += passed.iter().filter(|it| **it == b'\n').count() as u64;
+        counted = start;
+        let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
+        if cells.iter().all(|it| it.trim().is_empty()) {
+            continue;
+        }
+        if cells.len() > titles.len() {
+            let message = format!(
+                "the row has {} cells, and there are {} titles",
+                cells.len(),
+                titles.len()
+            );
+            return Err(Error::wrong(message)
+                .at(format!("{file}, line {line}"))
+                .advise("put a cell that holds the separator into double quotes"));
+        }
+        cells.resize(titles.len(), String::new());
+        if rows.len() == MOST {
+            return Err(Error::wrong(format!("the table has more than {MOST} rows")).at(file));
+        }
+        rows.push((line, cells));
+    }
+    Ok(Table { titles, rows })
+}
