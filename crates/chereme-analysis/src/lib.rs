@@ -2,6 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`agreement`](mod@agreement) | how far annotators agree: on values, on spans, on both |
 //! | [`align`](mod@align) | the shift at which two signals of one event are most similar |
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
 //! | [`detect`] | detectors behind one trait: spans, fields, values and confidences |
@@ -11,10 +12,12 @@
 //! | [`measure`](mod@measure) | the size and duration of movements of a known kind |
 //! | [`nonmanuals`] | proposals for brows, lids, gaze, mouth and head from curves of a face |
 //! | [`phases`] | similarity of two expressions of the face, phase by phase |
+//! | [`random`](mod@random) | random numbers from a seed |
 //! | [`score`](mod@score) | similarity of two performances, component by component, with their alignment |
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
+pub mod agreement;
 pub mod align;
 pub mod cue;
 pub mod detect;
@@ -24,6 +27,7 @@ pub mod map;
 pub mod measure;
 pub mod nonmanuals;
 pub mod phases;
+pub mod random;
 pub mod score;
 pub mod strokes;
 pub mod transcribe;

@@ -1,0 +1,45 @@
+//! Random numbers from a seed.
+
+use glam::DVec3;
+
+/// Random numbers that are the same on every machine (SplitMix64).
+#[derive(Debug, Clone)]
+pub struct Random(u64);
+
+impl Random {
+    /// Returns the generator for a seed.
+    #[must_use]
+    pub fn new(seed: u64) -> Self {
+        Self(seed)
+    }
+
+    /// Returns 64 random bits.
+    pub(crate) fn bits(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+        z ^ (z >> 31)
+    }
+
+    /// Returns a random number from 0 to 1.
+    pub fn share(&mut self) -> f64 {
+        (self.bits() >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    /// Returns a random number with a standard normal distribution.
+    pub fn normal(&mut self) -> f64 {
+        let (a, b) = (self.share().max(1e-300), self.share());
+        (-2.0 * a.ln()).sqrt() * (std::f64::consts::TAU * b).cos()
+    }
+
+    /// Returns a random whole number below `end`, which must not be 0.
+    pub fn below(&mut self, end: usize) -> usize {
+        ((self.share() * end as f64) as usize).min(end.saturating_sub(1))
+    }
+
+    /// Returns a vector of three normal numbers with this standard deviation.
+    pub(crate) fn vector(&mut self, sd: f64) -> DVec3 {
+        DVec3::new(self.normal(), self.normal(), self.normal()) * sd
+    }
+}
