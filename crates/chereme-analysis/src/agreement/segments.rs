@@ -20,6 +20,29 @@ pub struct Edits {
     pub places: usize,
 }
 
+impl Edits {
+    /// Adds the edits of another stretch.
+    pub fn add(&mut self, other: &Self) {
+        self.matches += other.matches;
+        self.additions += other.additions;
+        self.transpositions += other.transpositions;
+        self.distance += other.distance;
+        self.places += other.places;
+    }
+
+    /// Returns the boundary similarity of the edits, see [`boundary_similarity`].
+    ///
+    /// # Errors
+    /// [`Undefined::NoBoundary`].
+    pub fn boundary_similarity(&self, near: usize) -> Measure {
+        let all = self.additions + self.transpositions + self.matches;
+        if all == 0 {
+            return Err(Undefined::NoBoundary);
+        }
+        Ok(1.0 - cost(self, near) / all as f64)
+    }
+}
+
 /// Returns the edits between two segmentations; boundaries less than `near` steps apart are one boundary in two places.
 ///
 /// The nearest boundaries are paired first, earlier ones before later ones.
@@ -81,12 +104,7 @@ fn boundaries(masses: &Masses) -> Vec<usize> {
 /// # Errors
 /// [`Undefined::NoBoundary`].
 pub fn boundary_similarity(first: &Masses, second: &Masses, near: usize) -> Measure {
-    let edits = edits(first, second, near);
-    let all = edits.additions + edits.transpositions + edits.matches;
-    if all == 0 {
-        return Err(Undefined::NoBoundary);
-    }
-    Ok(1.0 - cost(&edits, near) / all as f64)
+    edits(first, second, near).boundary_similarity(near)
 }
 
 /// Returns segmentation similarity (Fournier and Inkpen 2012): as boundary similarity, over all places for a boundary.

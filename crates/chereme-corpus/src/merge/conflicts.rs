@@ -174,9 +174,18 @@ fn image(connection: &Connection, row: &AnnotationRow) -> Result<Image> {
     Ok(image)
 }
 
-/// Returns a uid for an annotation that only a file has: the same one at every import of the file.
+/// Returns a uid for an annotation that only the other side has: the same one at every import of its file. Without an id
+/// of a file the start and the value stand for it.
 fn made_uid(image: &Image) -> String {
-    let text = format!("{:?} {:?}", image.get("tier_id"), image.get("external_id"));
+    let (tier, id) = (image.get("tier_id"), image.get("external_id"));
+    let text = match id.filter(|id| !id.is_null()) {
+        Some(_) => format!("{tier:?} {id:?}"),
+        None => format!(
+            "{tier:?} {:?} {:?}",
+            image.get("start_us"),
+            image.get("value")
+        ),
+    };
     crate::db::motion::hex(&Sha256::digest(text.as_bytes())[..16]).to_uppercase()
 }
 

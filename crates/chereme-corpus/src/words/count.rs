@@ -3,7 +3,7 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 30] = [
+const NOUNS: [(&str, &str, &str, &str); 33] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("attributes", "attribute", "attribut", "attributs"),
     ("blocks", "block", "bloc", "blocs"),
@@ -31,6 +31,12 @@ const NOUNS: [(&str, &str, &str, &str); 30] = [
         "paire d’images",
         "paires d’images",
     ),
+    (
+        "pairs of tiers",
+        "pair of tiers",
+        "paire d’acteurs",
+        "paires d’acteurs",
+    ),
     ("points", "point", "point", "points"),
     ("recipes", "recipe", "recette", "recettes"),
     (
@@ -40,6 +46,7 @@ const NOUNS: [(&str, &str, &str, &str); 30] = [
         "enregistrements",
     ),
     ("rows", "row", "ligne", "lignes"),
+    ("samples", "sample", "échantillon", "échantillons"),
     ("searches", "search", "recherche", "recherches"),
     ("signers", "signer", "signeur", "signeurs"),
     ("signs", "sign", "signe", "signes"),
@@ -47,6 +54,7 @@ const NOUNS: [(&str, &str, &str, &str); 30] = [
     ("symbols", "symbol", "symbole", "symboles"),
     ("tiers", "tier", "acteur", "acteurs"),
     ("tokens", "token", "occurrence", "occurrences"),
+    ("units", "unit", "unité", "unités"),
     ("values", "value", "valeur", "valeurs"),
     ("tracks", "track", "piste", "pistes"),
 ];

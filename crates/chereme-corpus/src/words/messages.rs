@@ -9,6 +9,7 @@ use chereme_analysis::detect::DETECTORS;
 use chereme_compose::recipe::Step;
 
 use super::Language;
+use super::agreeing::AGREEING;
 use super::asking::ASKING;
 use super::captures::CAPTURES;
 use super::coding::CODING;
@@ -524,6 +525,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)
+        .chain(AGREEING)
         .chain(LINES);
     let own = own.iter().copied().flatten();
     first

@@ -1,0 +1,551 @@
+//! `chereme agree`: compares what two annotators made of the same recordings.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{
+    AgreeOptions, Agreement, Disagreement, DisagreementSide, Error, Figure, Moment, Name, Progress,
+    Quartiles, Step,
+};
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+use crate::words::Words;
+
+/// Measure how far two annotators agree, on which values they differ, and where
+///
+/// Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, "*-A" and "*-B",
+/// whose star stands for the same text in both; by annotator:NAME, of which those tiers are compared that describe the
+/// same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the
+/// spans alone are compared.
+///
+/// Measures: kappa_ipf, raw, matched, kappa, kappa_max (ELAN's modified kappa of Holle and Rein: units match if 60 % of the
+/// longer one overlap); alpha_u, u_alpha, u_alpha_spans, cu_alpha (Krippendorff, over time); gamma, gamma_cat (Mathet, by
+/// alignment; chance is drawn as in pygamma-agreement); label_raw, label_kappa, label_pi, label_ac1, label_alpha,
+/// label_alpha_features (values of matched units alone; the last weighs the features of handshapes); overlap_a, overlap_b
+/// (ELAN's ratio of overlap, from either tier); frames_raw, frames_kappa, frames_alpha (10 ms each); boundaries (boundary
+/// similarity of tiers without gaps). A measure that is undefined has a reason instead of a number. With fewer than 10
+/// units, or one value, only counts are printed.
+///
+/// Intervals hold 95 of 100 draws of units, or of recordings if there are 10 or more. That of gamma only shows how exact
+/// its chance is: more --samples make it narrower.
+///
+/// `--json` gives "a", "b", "values", "units_a", "units_b", "matched", "equal", "unmatched_a", "unmatched_b",
+/// "left_out_a", "left_out_b", "counts_only", "measures" (each with "value" or null, "why", and "interval"), "onset_s" and
+/// "offset_s" (b less a: "q1", "median", "q3"), "by_value", "disagreements" (their numbers), "pairs" (each pair of tiers) and
+/// "findings"; with --list "list", with --confusion "confusion", with --into "adjudicated".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme agree mine.chereme --a 'Gloss Anna' --b 'Gloss Ben'
+  chereme agree mine.chereme --a '*-A' --b '*-B' --in recording:3 --list
+  chereme agree mine.chereme --a annotator:Anna --b annotator:Ben --confusion
+  chereme agree mine.chereme --a tier:4 --b tier:19 --measure kappa_ipf --json
+  chereme agree mine.chereme --a 'Gloss Anna' --b 'Gloss Ben' --into Gloss   (then decide: chereme conflicts mine.chereme)")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The tier of the first annotator
+    #[arg(long, value_name = "TIER")]
+    a: String,
+    /// The tier of the second annotator
+    #[arg(long, value_name = "TIER")]
+    b: String,
+    /// Only this recording
+    #[arg(long = "in", value_name = "RECORDING")]
+    recording: Option<String>,
+    /// Only these measures, separated by commas; `all` prints all, and without it the usual five are printed
+    #[arg(long = "measure", value_name = "NAME,...", value_delimiter = ',')]
+    measures: Vec<String>,
+    /// Starts or ends further apart than this are a disagreement
+    #[arg(long, value_name = "TIME", default_value = "80ms")]
+    tolerance: Moment,
+    /// The share of the longer unit, in percent, that must overlap for a match: 51 to 100
+    #[arg(long, value_name = "PERCENT", default_value_t = 60)]
+    overlap: u8,
+    /// The number of draws for intervals; 0 computes none
+    #[arg(long, value_name = "DRAWS", default_value_t = 1000)]
+    bootstrap: usize,
+    /// The number of random continua for gamma, at least 30; 0 leaves gamma out
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    samples: usize,
+    /// The seed of all draws; the same seed gives the same numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Count the whole recording as annotated, instead of the time from the first annotation to the last
+    #[arg(long)]
+    whole: bool,
+    /// List the disagreements, the costliest first
+    #[arg(long)]
+    list: bool,
+    /// List the values that were confused, and the features in which they differ
+    #[arg(long)]
+    confusion: bool,
+    /// Write the disagreements to a table (.csv)
+    #[arg(long, value_name = "FILE")]
+    to: Option<PathBuf>,
+    /// Replace a table that exists already
+    #[arg(long)]
+    force: bool,
+    /// Write what both agree on to a new tier of this name, with a conflict for each disagreement, which `conflicts` decides
+    #[arg(long, value_name = "TIER")]
+    into: Option<String>,
+}
+
+/// The measures that are printed if nobody asks for others.
+const USUAL: [&str; 5] = ["kappa_ipf", "raw", "matched", "alpha_u", "gamma"];
+/// The most rows of values that are printed.
+const MOST_ROWS: usize = 30;
+
+impl Args {
+    fn options(&self) -> Result<AgreeOptions> {
+        let tolerance_us = match self.tolerance {
+            Moment::Time(time) if time.micros() >= 0 => time.micros(),
+            _ => {
+                return Err(Error::wrong("a tolerance is a time of 0 or more")
+                    .at("--tolerance")
+                    .advise("write 80ms, or 0.08s")
+                    .into());
+            }
+        };
+        let all = self.measures.iter().any(|it| it == "all");
+        Ok(AgreeOptions {
+            recording: self
+                .recording
+                .as_deref()
+                .map(Name::of_recording)
+                .transpose()?,
+            measures: if all {
+                Vec::new()
+            } else {
+                self.measures.clone()
+            },
+            share: f64::from(self.overlap) / 100.0,
+            tolerance_us,
+            draws: self.bootstrap,
+            samples: self.samples,
+            seed: self.seed,
+            whole: self.whole,
+            ..AgreeOptions::new(&self.a, &self.b)
+        })
+    }
+
+    /// Returns whether a measure is printed.
+    fn prints(&self, measure: &str) -> bool {
+        match self.measures.is_empty() {
+            true => USUAL.contains(&measure),
+            false => self.measures.iter().any(|it| it == measure || it == "all"),
+        }
+    }
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let options = args.options()?;
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let mut progress = Progress::new(&mut hear);
+    let found = corpus.agree(&options, &mut progress)?;
+    let adjudicated = match &args.into {
+        Some(into) => Some(corpus.adjudicate(&options, into, &mut progress)?),
+        None => None,
+    };
+    drop(bar);
+    print(&found, args, output)?;
+    let mut document = serde_json::to_value(&found)?;
+    if args.confusion {
+        confusion(&found, output)?;
+        document["confusion"] = json!(found.confusion);
+    }
+    if args.list {
+        list(&found.list, output)?;
+        document["list"] = json!(found.list);
+    }
+    if let Some(path) = &args.to {
+        found.write_disagreements(path, args.force)?;
+        output.line(format!("wrote {}", path.display()))?;
+    }
+    if let Some(it) = adjudicated {
+        output.line(format!(
+            "on the tier {:?}: {} on which both agree; {} to decide",
+            it.tier,
+            output.counted(it.agreed, "annotations"),
+            output.counted(it.conflicts, "conflicts"),
+        ))?;
+        document["adjudicated"] = json!(it);
+    }
+    output.document(document)
+}
+
+/// Prints counts, measures, and the table of values.
+fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
+    for finding in &found.findings {
+        output.warn(finding)?;
+    }
+    let counts = &found.counts;
+    output.line(format!(
+        "{:?} has {} units and {:?} has {}, in {}",
+        found.a,
+        counts.units_a,
+        found.b,
+        counts.units_b,
+        output.counted(found.pairs.len() as u64, "pairs of tiers"),
+    ))?;
+    output.line(format!(
+        "matched: {}, {} of them with equal values; only a: {}, only b: {}",
+        counts.matched, counts.equal, counts.unmatched_a, counts.unmatched_b
+    ))?;
+    let kinds = &found.disagreements;
+    output.line(format!(
+        "disagreements in the alignment: only a {}, only b {}, other value {}, start or end {}",
+        kinds.only_a, kinds.only_b, kinds.value, kinds.boundary
+    ))?;
+    if let (Some(onset), Some(offset)) = (&found.onset_s, &found.offset_s) {
+        output.line(format!(
+            "start of b less a: {}; end: {} (median and quartiles, in ms)",
+            quartiles(onset),
+            quartiles(offset)
+        ))?;
+    }
+    if found.counts_only {
+        output.line(
+            "too few units or values for figures; with --json they are computed all the same",
+        )?;
+        return Ok(());
+    }
+    let shown = found.measures.iter().filter(|(name, _)| args.prints(name));
+    let rows: Vec<Vec<String>> = shown
+        .map(|(name, figure)| {
+            vec![
+                (*name).to_owned(),
+                value(figure, output),
+                interval(figure),
+                drawn(figure, output),
+            ]
+        })
+        .collect();
+    output.table(&["measure", "value", "95 %", "draws"], &rows)?;
+    let rows = found.by_value.iter().take(MOST_ROWS);
+    let rows: Vec<Vec<String>> = rows
+        .map(|it| {
+            vec![
+                it.value.clone(),
+                it.a.to_string(),
+                it.b.to_string(),
+                it.both.to_string(),
+                it.other.to_string(),
+                it.alone.to_string(),
+                value(&it.kappa, output),
+                value(&it.alpha_u, output),
+            ]
+        })
+        .collect();
+    if !rows.is_empty() {
+        let titles = [
+            "value",
+            "a",
+            "b",
+            "both",
+            "other value",
+            "alone",
+            "kappa",
+            "alpha_u",
+        ];
+        output.table(&titles, &rows)?;
+    }
+    if found.by_value.len() > MOST_ROWS {
+        let more = found.by_value.len() - MOST_ROWS;
+        output.line(format!("values that are not shown: {more}; --json has all"))?;
+    }
+    if found.pairs.len() > 1 {
+        let rows: Vec<Vec<String>> = found.pairs.iter().map(|it| pair(it, output)).collect();
+        let titles = [
+            "recording",
+            "tier a",
+            "tier b",
+            "a",
+            "b",
+            "matched",
+            "equal",
+            "kappa_ipf",
+            "alpha_u",
+        ];
+        output.table(&titles, &rows)?;
+    }
+    Ok(())
+}
+
+fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
+    let figure = |name: &str| {
+        let found = it.measures.iter().find(|(own, _)| *own == name);
+        found
+            .filter(|_| !it.counts.are_few())
+            .map(|(_, figure)| value(figure, output))
+            .unwrap_or_default()
+    };
+    vec![
+        it.recording.clone(),
+        it.tier_a.clone(),
+        it.tier_b.clone(),
+        it.counts.units_a.to_string(),
+        it.counts.units_b.to_string(),
+        it.counts.matched.to_string(),
+        it.counts.equal.to_string(),
+        figure("kappa_ipf"),
+        figure("alpha_u"),
+    ]
+}
+
+/// Returns the value of a measure, or the reason why it has none.
+fn value(figure: &Figure, output: &Output) -> String {
+    match (figure.value, &figure.why) {
+        (Some(value), _) => format!("{value:.3}"),
+        (None, Some(why)) => format!("- ({})", output.spoken(why)),
+        (None, None) => String::new(),
+    }
+}
+
+fn interval(figure: &Figure) -> String {
+    let shown = figure
+        .interval
+        .map(|it| format!("{:.3} … {:.3}", it.low, it.high));
+    shown.unwrap_or_default()
+}
+
+/// Returns how many draws an interval comes from, and what was drawn.
+fn drawn(figure: &Figure, output: &Output) -> String {
+    let shown = figure.interval.map(|it| {
+        let of = chereme_corpus::words::numbered(2, it.of, output.language());
+        format!("{} × {of}", it.draws)
+    });
+    shown.unwrap_or_default()
+}
+
+fn quartiles(it: &Quartiles) -> String {
+    let [q1, median, q3] = [it.q1, it.median, it.q3].map(|it| format!("{:+.0}", it * 1000.0));
+    format!("{median} ({q1} … {q3})")
+}
+
+fn confusion(found: &Agreement, output: &mut Output) -> Result<()> {
+    let rows: Vec<Vec<String>> = found
+        .confusion
+        .iter()
+        .map(|it| {
+            vec![
+                it.count.to_string(),
+                it.a.clone(),
+                it.b.clone(),
+                it.only_a.join(" "),
+                it.only_b.join(" "),
+            ]
+        })
+        .collect();
+    output.table(
+        &[
+            "times",
+            "a",
+            "b",
+            "features of a alone",
+            "features of b alone",
+        ],
+        &rows,
+    )
+}
+
+fn list(found: &[Disagreement], output: &mut Output) -> Result<()> {
+    let side =
+        |it: &Option<DisagreementSide>| it.as_ref().map(|it| it.value.clone()).unwrap_or_default();
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .map(|it| {
+            let apart = |of: fn(&DisagreementSide) -> i64| match (&it.a, &it.b) {
+                (Some(a), Some(b)) => format!("{:+.0}", (of(b) - of(a)) as f64 / 1000.0),
+                _ => String::new(),
+            };
+            let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+            vec![
+                it.recording.clone(),
+                seconds(it.start_us),
+                seconds(it.end_us),
+                it.kind.name().to_owned(),
+                side(&it.a),
+                side(&it.b),
+                apart(|it| it.start_us),
+                apart(|it| it.end_us),
+                format!("{:.2}", it.cost),
+            ]
+        })
+        .collect();
+    let titles = [
+        "recording",
+        "from (s)",
+        "to (s)",
+        "kind",
+        "a",
+        "b",
+        "start (ms)",
+        "end (ms)",
+        "cost",
+    ];
+    output.table(&titles, &rows)
+}
+
+/// The French words of the command.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "Measure how far two annotators agree, on which values they differ, and where",
+            "Mesurer l’accord de deux annotateurs, sur quelles valeurs ils diffèrent, et où",
+        ),
+        (
+            "Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, \"*-A\" and \"*-B\", whose star stands for the same text in both; by annotator:NAME, of which those tiers are compared that describe the same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the spans alone are compared.",
+            "Deux acteurs sont comparés dans chaque enregistrement qui a les deux. Un acteur se nomme par son nom ; par un motif, « *-A » et « *-B », où l’étoile est le même texte des deux côtés ; par annotator:NOM, et les acteurs qui décrivent la même chose sont comparés ; ou par tier:12, même de deux enregistrements. Les annotations sans valeur sont laissées de côté ; si personne n’a donné de valeur, seules les durées sont comparées.",
+        ),
+        (
+            "Measures: kappa_ipf, raw, matched, kappa, kappa_max (ELAN's modified kappa of Holle and Rein: units match if 60 % of the longer one overlap); alpha_u, u_alpha, u_alpha_spans, cu_alpha (Krippendorff, over time); gamma, gamma_cat (Mathet, by alignment; chance is drawn as in pygamma-agreement); label_raw, label_kappa, label_pi, label_ac1, label_alpha, label_alpha_features (values of matched units alone; the last weighs the features of handshapes); overlap_a, overlap_b (ELAN's ratio of overlap, from either tier); frames_raw, frames_kappa, frames_alpha (10 ms each); boundaries (boundary similarity of tiers without gaps). A measure that is undefined has a reason instead of a number. With fewer than 10 units, or one value, only counts are printed.",
+            "Mesures : kappa_ipf, raw, matched, kappa, kappa_max (le kappa modifié de Holle et Rein, comme dans ELAN : deux unités se correspondent si 60 % de la plus longue sont communs) ; alpha_u, u_alpha, u_alpha_spans, cu_alpha (Krippendorff, sur le temps) ; gamma, gamma_cat (Mathet, par alignement ; le hasard est tiré comme dans pygamma-agreement) ; label_raw, label_kappa, label_pi, label_ac1, label_alpha, label_alpha_features (valeurs des seules unités qui se correspondent ; la dernière pèse les traits des configurations) ; overlap_a, overlap_b (le taux de recouvrement d’ELAN, depuis chaque acteur) ; frames_raw, frames_kappa, frames_alpha (10 ms chacune) ; boundaries (similarité des frontières d’acteurs sans vides). Une mesure indéfinie a une raison au lieu d’un nombre. Avec moins de 10 unités, ou une seule valeur, seuls des nombres d’unités sont affichés.",
+        ),
+        (
+            "Intervals hold 95 of 100 draws of units, or of recordings if there are 10 or more. That of gamma only shows how exact its chance is: more --samples make it narrower.",
+            "Les intervalles contiennent 95 tirages sur 100, d’unités, ou d’enregistrements s’il y en a 10 ou plus. Celui de gamma ne montre que la précision de son hasard : plus de --samples le resserrent.",
+        ),
+        (
+            "`--json` gives \"a\", \"b\", \"values\", \"units_a\", \"units_b\", \"matched\", \"equal\", \"unmatched_a\", \"unmatched_b\", \"left_out_a\", \"left_out_b\", \"counts_only\", \"measures\" (each with \"value\" or null, \"why\", and \"interval\"), \"onset_s\" and \"offset_s\" (b less a: \"q1\", \"median\", \"q3\"), \"by_value\", \"disagreements\" (their numbers), \"pairs\" (each pair of tiers) and \"findings\"; with --list \"list\", with --confusion \"confusion\", with --into \"adjudicated\".",
+            "`--json` donne \"a\", \"b\", \"values\", \"units_a\", \"units_b\", \"matched\", \"equal\", \"unmatched_a\", \"unmatched_b\", \"left_out_a\", \"left_out_b\", \"counts_only\", \"measures\" (chacune avec \"value\" ou null, \"why\" et \"interval\"), \"onset_s\" et \"offset_s\" (b moins a : \"q1\", \"median\", \"q3\"), \"by_value\", \"disagreements\" (leurs nombres), \"pairs\" (chaque paire d’acteurs) et \"findings\" ; avec --list \"list\", avec --confusion \"confusion\", avec --into \"adjudicated\".",
+        ),
+        (
+            "The tier of the first annotator",
+            "L’acteur du premier annotateur",
+        ),
+        (
+            "The tier of the second annotator",
+            "L’acteur du second annotateur",
+        ),
+        ("Only this recording", "Seulement cet enregistrement"),
+        (
+            "Only these measures, separated by commas; `all` prints all, and without it the usual five are printed",
+            "Seulement ces mesures, séparées par des virgules ; `all` les affiche toutes, et sans cette option les cinq usuelles sont affichées",
+        ),
+        (
+            "Starts or ends further apart than this are a disagreement",
+            "Des débuts ou des fins plus éloignés que cela sont un désaccord",
+        ),
+        (
+            "The share of the longer unit, in percent, that must overlap for a match: 51 to 100",
+            "La part de l’unité la plus longue, en pour cent, qui doit être commune pour une correspondance : 51 à 100",
+        ),
+        (
+            "The number of draws for intervals; 0 computes none",
+            "Le nombre de tirages pour les intervalles ; 0 n’en calcule aucun",
+        ),
+        (
+            "The number of random continua for gamma, at least 30; 0 leaves gamma out",
+            "Le nombre de continus aléatoires pour gamma, au moins 30 ; 0 omet gamma",
+        ),
+        (
+            "The seed of all draws; the same seed gives the same numbers",
+            "La graine de tous les tirages ; la même graine donne les mêmes nombres",
+        ),
+        (
+            "Count the whole recording as annotated, instead of the time from the first annotation to the last",
+            "Compter tout l’enregistrement comme annoté, au lieu du temps de la première annotation à la dernière",
+        ),
+        (
+            "List the disagreements, the costliest first",
+            "Énumérer les désaccords, les plus coûteux d’abord",
+        ),
+        (
+            "List the values that were confused, and the features in which they differ",
+            "Énumérer les valeurs confondues, et les traits par lesquels elles diffèrent",
+        ),
+        (
+            "Write the disagreements to a table (.csv)",
+            "Écrire les désaccords dans une table (.csv)",
+        ),
+        (
+            "Replace a table that exists already",
+            "Remplacer une table qui existe déjà",
+        ),
+        (
+            "Write what both agree on to a new tier of this name, with a conflict for each disagreement, which `conflicts` decides",
+            "Écrire ce sur quoi les deux s’accordent sur un nouvel acteur de ce nom, avec un conflit par désaccord, que `conflicts` tranche",
+        ),
+        (
+            "(then decide: chereme conflicts mine.chereme)",
+            "(puis trancher : chereme conflicts mine.chereme)",
+        ),
+    ],
+    lines: &[
+        (
+            "a tolerance is a time of 0 or more",
+            "une tolérance est un temps, 0 ou plus",
+        ),
+        ("write 80ms, or 0.08s", "écrivez 80ms, ou 0.08s"),
+        (
+            "on the tier {name}: {annotations} on which both agree; {conflicts} to decide",
+            "sur l’acteur {name} : accord des deux pour {annotations} ; à trancher : {conflicts}",
+        ),
+        (
+            "{a} has {n} units and {b} has {m}, in {pairs}",
+            "unités de {a} : {n} ; de {b} : {m} ; dans {pairs}",
+        ),
+        (
+            "matched: {n}, {equal} of them with equal values; only a: {a}, only b: {b}",
+            "en correspondance : {n}, dont de même valeur : {equal} ; seulement a : {a}, seulement b : {b}",
+        ),
+        (
+            "disagreements in the alignment: only a {a}, only b {b}, other value {value}, start or end {boundary}",
+            "désaccords dans l’alignement : seulement a {a}, seulement b {b}, autre valeur {value}, début ou fin {boundary}",
+        ),
+        (
+            "start of b less a: {onset}; end: {offset} (median and quartiles, in ms)",
+            "début de b moins a : {onset} ; fin : {offset} (médiane et quartiles, en ms)",
+        ),
+        (
+            "too few units or values for figures; with --json they are computed all the same",
+            "trop peu d’unités ou de valeurs pour des mesures ; --json les calcule quand même",
+        ),
+        (
+            "values that are not shown: {n}; --json has all",
+            "valeurs qui ne sont pas affichées : {n} ; --json les a toutes",
+        ),
+    ],
+    titles: &[
+        ("measure", "mesure"),
+        ("draws", "tirages"),
+        ("both", "les deux"),
+        ("other value", "autre valeur"),
+        ("alone", "seul"),
+        ("tier a", "acteur a"),
+        ("tier b", "acteur b"),
+        ("matched", "correspond"),
+        ("equal", "égal"),
+        ("times", "fois"),
+        ("features of a alone", "traits de a seul"),
+        ("features of b alone", "traits de b seul"),
+        ("from (s)", "de (s)"),
+        ("to (s)", "à (s)"),
+        ("start (ms)", "début (ms)"),
+        ("end (ms)", "fin (ms)"),
+        ("cost", "coût"),
+    ],
+};
+
+#[cfg(test)]
+mod tests {
+    use chereme_corpus::MEASURES;
+
+    use super::*;
+
+    #[test]
+    fn the_help_names_every_measure() {
+        let mut command = <crate::args::Cli as clap::CommandFactory>::command();
+        let agree = command.find_subcommand_mut("agree").expect("the command");
+        let help = agree.render_long_help().to_string();
+        for measure in MEASURES {
+            assert!(help.contains(measure), "{measure}");
+        }
+        assert!(USUAL.iter().all(|it| MEASURES.contains(it)));
+    }
+}

@@ -1,0 +1,1 @@
+//! Agreement on small corpora.
