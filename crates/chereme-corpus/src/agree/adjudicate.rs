@@ -20,7 +20,6 @@ use crate::db::tiers::{self as rows, AnnotationRow};
 use crate::error::{Error, Result};
 use crate::merge::keep_annotation;
 use crate::progress::Progress;
-use crate::words::counted;
 
 /// The result of an adjudication.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
@@ -92,12 +91,7 @@ impl Corpus {
                     }
                 }
                 report.recordings = all.iter().map(|it| it.name.clone()).collect();
-                let summary = format!(
-                    "{into}: {}, {}",
-                    counted(report.agreed, "annotations"),
-                    counted(report.conflicts, "conflicts")
-                );
-                Ok((report, summary))
+                Ok((report, into.to_owned()))
             })
     }
 

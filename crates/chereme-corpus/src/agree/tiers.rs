@@ -72,8 +72,18 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
                 }
             )
         };
-        handshapes &= handshape(&a) && handshape(&b);
+        let both_handshapes = handshape(&a) && handshape(&b);
+        // A vocabulary of a file has no features; inventories of handshapes have them for the same names.
+        let usual: Vec<&Inventory> = match both_handshapes {
+            true => inventories
+                .iter()
+                .map(|it| &it.inventory)
+                .filter(|it| is_of_handshapes(it))
+                .collect(),
+            false => Vec::new(),
+        };
         let shared = inventory(&a).filter(|_| a.inventory_id == b.inventory_id);
+        handshapes &= both_handshapes;
         let mut tiers = Vec::new();
         let (mut kept, mut left_out) = ([Vec::new(), Vec::new()], [0, 0]);
         for (side, annotations) in both.into_iter().enumerate() {
@@ -87,7 +97,8 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
                     left_out[side] += 1;
                     continue;
                 };
-                let number = values.number(value, shared);
+                let known = || shared.into_iter().chain(usual.iter().copied());
+                let number = values.number(value, known);
                 let (start, end) = (
                     milliseconds(annotation.start_us),
                     milliseconds(annotation.end_us),
@@ -131,6 +142,10 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
     })
 }
 
+fn is_of_handshapes(inventory: &Inventory) -> bool {
+    inventory.component == Component::Configuration && inventory.feature.is_none()
+}
+
 fn milliseconds(micros: i64) -> i64 {
     micros.saturating_add(500).div_euclid(1000)
 }
@@ -160,14 +175,21 @@ struct Values {
 }
 
 impl Values {
-    fn number(&mut self, value: String, inventory: Option<&Inventory>) -> usize {
+    /// Returns the number of a value; a new one has the features that the first of the inventories `known` gives it.
+    fn number<'a, K: Iterator<Item = &'a Inventory>>(
+        &mut self,
+        value: String,
+        known: impl Fn() -> K,
+    ) -> usize {
         if let Some(number) = self.numbers.get(&value) {
             return *number;
         }
-        let known = inventory.and_then(|it| it.get(&value));
+        let features = known()
+            .filter_map(|it| it.find(&value))
+            .map(|it| &it.features);
+        let features = features.into_iter().find(|it| !it.is_empty());
         let number = self.names.len();
-        self.features
-            .push(known.map(|it| it.features.clone()).unwrap_or_default());
+        self.features.push(features.cloned().unwrap_or_default());
         self.names.push(value.clone());
         self.numbers.insert(value, number);
         number

@@ -513,8 +513,9 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
     let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).copied();
     let operators = Step::DESCRIPTIONS.iter().flat_map(|it| it.messages);
     let detectors = DETECTORS.iter().flat_map(|it| it.description().messages);
-    let rest = NOTES
+    let rest = AGREEING
         .iter()
+        .chain(NOTES)
         .chain(MOVING)
         .chain(IMPORTING)
         .chain(FILMING)
@@ -525,7 +526,6 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(CAPTURES)
         .chain(DOCUMENTS)
         .chain(ASKING)
-        .chain(AGREEING)
         .chain(LINES);
     let own = own.iter().copied().flatten();
     first
