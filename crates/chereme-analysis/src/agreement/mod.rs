@@ -11,6 +11,18 @@
 //!
 //! A figure that is undefined is an [`Undefined`] with its reason, never NaN, 0 or 1. Times are whole numbers of any unit;
 //! alpha_U counts in this unit, and its authors count milliseconds.
+//!
+//! Limits. Gamma's chance is drawn as in pygamma-agreement, where the paper shifts real units: numbers of other programs
+//! differ by some 0.05, and by more on few units. The expected term of cuα is a limit, because the paper was not at hand.
+//! The alignment of three or more annotators is exact, or refused if the search is too long. Staccato is left out.
+//!
+//! ```
+//! use chereme_analysis::agreement::{items::Counts, Undefined};
+//!
+//! let counts = Counts::of(&[(0, 0), (0, 1), (1, 1), (1, 1)]);
+//! assert_eq!(counts.cohen(), Ok(0.5));
+//! assert_eq!(Counts::of(&[(0, 0)]).cohen(), Err(Undefined::OneValue));
+//! ```
 
 mod assignment;
 pub mod gamma;
