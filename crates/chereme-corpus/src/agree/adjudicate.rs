@@ -49,7 +49,8 @@ impl Corpus {
     /// Writes a third tier below the others of each recording: aligned units with equal values whose starts and ends lie
     /// within the tolerance, with the span of the first annotator; and the first annotator's version of each
     /// disagreement, which stays until [`decide`](Self::decide) is called. Each disagreement is a conflict:
-    /// `mine` is the first annotator's version, `theirs` the second's. All of it is one operation.
+    /// `mine` is the first annotator's version, `theirs` the second's, whose boundaries are the first's where they lie within
+    /// the tolerance. All of it is one operation.
     ///
     /// # Errors
     /// Those of [`agree`](Self::agree); fails if a recording has a tier of that name already.
@@ -162,33 +163,81 @@ impl Corpus {
                 if let Some(row) = mine {
                     third.changes.push(added(name.clone(), row));
                 }
-                let agrees = match (a, b, mine, theirs) {
-                    (Some(a), Some(b), Some(mine), Some(theirs)) => {
-                        let apart = (mine.start_us - theirs.start_us).abs();
-                        let apart = apart.max((mine.end_us - theirs.end_us).abs());
-                        first[a].value == second[b].value && apart <= options.tolerance_us
-                    }
+                let moved = match (mine, theirs) {
+                    (Some(mine), Some(theirs)) => apart(mine, theirs) > options.tolerance_us,
+                    _ => true,
+                };
+                let is_equal = match (a, b) {
+                    (Some(a), Some(b)) => first[a].value == second[b].value,
                     _ => false,
                 };
-                if agrees {
+                if is_equal && !moved {
                     report.agreed += 1;
-                } else {
-                    report.conflicts += 1;
-                    let theirs = theirs.map(|row| AnnotationRow {
-                        external_id: None,
-                        file_start_ms: None,
-                        file_end_ms: None,
-                        parent_id: None,
-                        source: None,
-                        position: 0,
-                        ..row.clone()
-                    });
-                    third.open.push((mine.map(|it| it.start_us), theirs));
+                    continue;
                 }
+                report.conflicts += 1;
+                let span = |row: &AnnotationRow| match mine {
+                    Some(mine) if !moved => (mine.start_us, mine.end_us),
+                    _ => clipped(row, &pair.annotations[0], a, options.tolerance_us),
+                };
+                let theirs = theirs.map(|row| candidate(row, span(row)));
+                third.open.push((mine.map(|it| it.start_us), theirs));
             }
             all.push(third);
         }
         Ok((all, report))
+    }
+}
+
+/// Returns how far the starts or the ends of two annotations lie apart, in microseconds.
+fn apart(a: &AnnotationRow, b: &AnnotationRow) -> i64 {
+    (a.start_us - b.start_us)
+        .abs()
+        .max((a.end_us - b.end_us).abs())
+}
+
+/// Returns the span of the second annotator's annotation, clipped where it reaches into an annotation of the first by no
+/// more than the tolerance: their boundary counts as the same one. Its own counterpart does not clip it.
+fn clipped(
+    row: &AnnotationRow,
+    first: &[AnnotationRow],
+    counterpart: Option<usize>,
+    tolerance: i64,
+) -> (i64, i64) {
+    let (mut start, mut end) = (row.start_us, row.end_us);
+    let from = first.partition_point(|it| it.end_us <= row.start_us);
+    for (at, other) in first.iter().enumerate().skip(from) {
+        if other.start_us >= row.end_us {
+            break;
+        }
+        let shared = other.end_us.min(row.end_us) - other.start_us.max(row.start_us);
+        if Some(at) == counterpart || shared > tolerance {
+            continue;
+        }
+        match other.start_us <= row.start_us {
+            true => start = start.max(other.end_us),
+            false => end = end.min(other.start_us),
+        }
+    }
+    if start < end {
+        (start, end)
+    } else {
+        (row.start_us, row.end_us)
+    }
+}
+
+/// Returns the second annotator's version of a disagreement, without its ties to its own tier.
+fn candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationRow {
+    AnnotationRow {
+        start_us,
+        end_us,
+        external_id: None,
+        file_start_ms: None,
+        file_end_ms: None,
+        parent_id: None,
+        source: None,
+        position: 0,
+        ..row.clone()
     }
 }
 

@@ -417,7 +417,8 @@ fn boundaries(all: &[Matched<'_>]) -> Measure {
     sum.boundary_similarity(NEAR)
 }
 
-/// Adds the percentile intervals of the measures of the table: units are drawn again, or recordings if there are many.
+/// Adds the percentile intervals of the measures of the table: units are drawn again, or recordings if there are many,
+/// which gives alpha_U an interval, too.
 fn add_intervals(
     figures: &mut [(&'static str, Figure)],
     all: &[Matched<'_>],
@@ -440,6 +441,9 @@ fn add_intervals(
         return Ok(());
     }
     let values = coded.values.len();
+    let pairs = coded.pairs.iter().filter(|it| it.continuum.units() > 0);
+    let continua: Vec<&Continuum> = pairs.map(|it| &it.continuum).collect();
+    let over_time = by_recording && options.wants("alpha_u");
     let mut drawn: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();
     let (mut done, mut stopped) = (0_u64, Ok(()));
     bootstrap(count, options.draws, options.seed, |places| {
@@ -459,7 +463,11 @@ fn add_intervals(
             }
             false => Table::of(places.iter().map(|at| every[*at]), values),
         };
-        for (name, measure) in of_table(&table, values) {
+        let alpha = over_time.then(|| {
+            let again: Vec<Continuum> = places.iter().map(|at| continua[*at].clone()).collect();
+            ("alpha_u", alpha_u(&Continuum::joined(&again)))
+        });
+        for (name, measure) in of_table(&table, values).into_iter().chain(alpha) {
             if let Ok(value) = measure {
                 drawn.entry(name).or_default().push(value);
             }

@@ -450,3 +450,79 @@ fn the_table_of_disagreements_has_a_row_for_each() {
     assert!(found.write_disagreements(&to, false).is_err(), "it exists");
     found.write_disagreements(&to, true).expect("replaced");
 }
+
+#[test]
+fn deciding_all_for_one_side_gives_its_tier() {
+    let split: &[(i64, i64, &str)] = &[
+        (0, 500, "X"),
+        (500, 1000, "X"),
+        (1000, 1400, "Y"),
+        (2000, 3000, "Z"),
+    ];
+    let whole: &[(i64, i64, &str)] = &[
+        (0, 1000, "X"),
+        (1010, 1600, "W"),
+        (1600, 2100, "V"),
+        (2100, 3000, "Z"),
+    ];
+    let empty: &[(i64, i64, &str)] = &[];
+    for (a, b) in [
+        (whole, split),
+        (split, whole),
+        (A, B),
+        (B, A),
+        (A, empty),
+        (empty, A),
+    ] {
+        for decision in [Decision::Mine, Decision::Theirs] {
+            let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
+            let exact = AgreeOptions {
+                tolerance_us: 0,
+                ..AgreeOptions::new("A", "B")
+            };
+            let mut hear = unheard;
+            let corpus = &mut desk.corpus;
+            let done = corpus
+                .adjudicate(&exact, "C", &mut Progress::new(&mut hear))
+                .expect("adjudicated");
+            let open = corpus.conflicts(false).expect("conflicts");
+            assert_eq!(open.len() as u64, done.conflicts, "{a:?} {b:?}");
+            let numbers: Vec<usize> = open.iter().map(|it| it.number).collect();
+            corpus.decide(&numbers, decision).expect("decided");
+            let wanted = if decision == Decision::Mine { "A" } else { "B" };
+            assert_eq!(
+                said(corpus, "C"),
+                said(corpus, wanted),
+                "{a:?} {b:?} {decision:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_candidate_does_not_reach_into_an_agreed_annotation_within_the_tolerance() {
+    let a: &[(i64, i64, &str)] = &[(0, 1000, "X"), (2000, 3000, "Y")];
+    let b: &[(i64, i64, &str)] = &[(0, 950, "X"), (950, 1400, "N"), (2000, 3000, "W")];
+    let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
+    let corpus = &mut desk.corpus;
+    let mut hear = unheard;
+    corpus
+        .adjudicate(
+            &AgreeOptions::new("A", "B"),
+            "C",
+            &mut Progress::new(&mut hear),
+        )
+        .expect("adjudicated");
+    let open: Vec<usize> = corpus
+        .conflicts(false)
+        .expect("open")
+        .iter()
+        .map(|it| it.number)
+        .collect();
+    assert_eq!(open.len(), 2);
+    corpus.decide(&open, Decision::Theirs).expect("decided");
+    assert_eq!(
+        said(corpus, "C"),
+        ["0-1000 X", "1000-1400 N", "2000-3000 W"]
+    );
+}
