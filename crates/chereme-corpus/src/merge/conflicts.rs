@@ -388,7 +388,7 @@ fn local(side: &Side<'_>, table: &str, image: &Image) -> Result<Image> {
 }
 
 /// Returns whether an annotation still overlaps a candidate: an earlier decision may have moved it away.
-fn is_in_the_way(connection: &Connection, other: i64, theirs: Option<&Image>) -> Result<bool> {
+fn still_overlaps(connection: &Connection, other: i64, theirs: Option<&Image>) -> Result<bool> {
     let time = |column: &str| theirs?.get(column)?.as_i64();
     let (Some(start), Some(end)) = (time("start_us"), time("end_us")) else {
         return Ok(true);
@@ -403,7 +403,7 @@ fn theirs(connection: &Connection, open: &Open) -> Result<()> {
     if let Some(other) = &open.other
         && let Some(other) = side.id("annotation", other)?
         && Some(other) != id
-        && is_in_the_way(connection, other, open.theirs.as_ref())?
+        && still_overlaps(connection, other, open.theirs.as_ref())?
     {
         remove(connection, other)?;
     }
