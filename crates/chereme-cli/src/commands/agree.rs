@@ -164,7 +164,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     if let Some(path) = &args.to {
         found.write_disagreements(path, args.force)?;
-        output.line(format!("wrote {}", path.display()))?;
+        output.line(format!("table of disagreements: {}", path.display()))?;
     }
     if let Some(it) = adjudicated {
         output.line(format!(
@@ -480,6 +480,10 @@ pub(super) const WORDS: Words = Words {
         (
             "a tolerance is a time of 0 or more",
             "une tolérance est un temps, 0 ou plus",
+        ),
+        (
+            "table of disagreements: {path}",
+            "table des désaccords : {path}",
         ),
         ("write 80ms, or 0.08s", "écrivez 80ms, ou 0.08s"),
         (

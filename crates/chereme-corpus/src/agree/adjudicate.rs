@@ -123,7 +123,7 @@ impl Corpus {
                     pair.recording.name
                 ))
                 .at(pair.recording.name.as_str())
-                .advise("name one pair with --a and --b"));
+                .advise("name one pair of tiers"));
             }
             let recording = Name::Number(pair.recording.id);
             let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());

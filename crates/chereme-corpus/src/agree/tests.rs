@@ -235,6 +235,10 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
     assert_eq!((pooled.counts.units_a, pooled.counts.matched), (10, 9));
     for (options, wanted) in [
         (AgreeOptions::new("G-A", "G-C"), "did you mean"),
+        (
+            AgreeOptions::new("annotator:Anna", "annotator:Bem"),
+            "did you mean",
+        ),
         (AgreeOptions::new("G-A", "G-A"), "itself"),
         (
             AgreeOptions {

@@ -237,10 +237,11 @@ fn named(
         Some(name) => vec![address::recording(connection, name)?],
         None => recordings::recordings(connection)?,
     };
-    let (mut found, mut names) = (Vec::new(), BTreeSet::new());
+    let (mut found, mut names, mut annotators) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
     for recording in scope {
         let tiers = rows::tiers(connection, recording.id)?;
         names.extend(tiers.iter().map(|it| it.name.clone()));
+        annotators.extend(tiers.iter().filter_map(|it| it.annotator.clone()));
         let pairs = match (&a, &b) {
             (Wanted::Annotator(a), Wanted::Annotator(b)) => {
                 by_annotator(&recording.name, &tiers, (a, b), findings)
@@ -265,6 +266,11 @@ fn named(
         }
     }
     if found.is_empty() {
+        for wanted in [&a, &b] {
+            if let Wanted::Annotator(name) = wanted {
+                known_annotator(name, &annotators)?;
+            }
+        }
         return Err(no_pair(options, &names));
     }
     apart(found, options)
@@ -278,9 +284,25 @@ fn apart(found: Vec<Found>, options: &AgreeOptions) -> Result<Vec<Found>> {
             a.name, recording.name
         ))
         .at(options.b.as_str())
-        .advise("name the tier of the other annotator with --b")),
+        .advise("name the tier of the other annotator")),
         None => Ok(found),
     }
+}
+
+/// Refuses an annotator of no tier.
+fn known_annotator(name: &str, annotators: &BTreeSet<String>) -> Result<()> {
+    if annotators.iter().any(|it| fold(it.trim()) == fold(name)) {
+        return Ok(());
+    }
+    let meant =
+        chereme_sign::text::did_you_mean(nearest(name, annotators.iter().map(String::as_str)));
+    Err(
+        Error::wrong(format!("no tier has the annotator {name:?}{meant}"))
+            .at(name)
+            .advise(Remedy::command(
+                "`chereme list CORPUS tiers` shows the annotator of each tier",
+            )),
+    )
 }
 
 fn no_pair(options: &AgreeOptions, names: &BTreeSet<String>) -> Error {
@@ -359,7 +381,7 @@ fn by_annotator<'a>(
             (_, Some(same)) => pairs.push((tier, *same)),
             ([], _) => {}
             _ => findings.push(format!(
-                "several tiers of {:?} could belong to {:?}: name them with --a and --b",
+                "several tiers of {:?} could belong to {:?}: name both by name or number",
                 recording, tier.name
             )),
         }

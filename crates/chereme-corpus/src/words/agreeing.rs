@@ -25,8 +25,8 @@ pub(super) const AGREEING: &[(&str, &str)] = &[
         "annotations sans valeur, laissées de côté : {n} de {a}, {m} de {b}",
     ),
     (
-        "several tiers of {recording} could belong to {tier}: name them with --a and --b",
-        "plusieurs acteurs de {recording} pourraient aller avec {tier} : nommez-les avec --a et --b",
+        "several tiers of {recording} could belong to {tier}: name both by name or number",
+        "plusieurs acteurs de {recording} pourraient aller avec {tier} : nommez les deux par nom ou numéro",
     ),
     (
         "no measure is called {name}",
@@ -51,8 +51,20 @@ pub(super) const AGREEING: &[(&str, &str)] = &[
         "l’acteur {tier} de {recording} serait comparé à lui-même",
     ),
     (
-        "name the tier of the other annotator with --b",
-        "nommez l’acteur de l’autre annotateur avec --b",
+        "name the tier of the other annotator",
+        "nommez l’acteur de l’autre annotateur",
+    ),
+    (
+        "no tier has the annotator {name}; did you mean {other}?",
+        "aucun acteur n’a l’annotateur {name} ; vouliez-vous dire {other} ?",
+    ),
+    (
+        "no tier has the annotator {name}",
+        "aucun acteur n’a l’annotateur {name}",
+    ),
+    (
+        "`chereme list CORPUS tiers` shows the annotator of each tier",
+        "`chereme list CORPUS tiers` montre l’annotateur de chaque acteur",
     ),
     (
         "no recording has both {a} and {b}; did you mean {name}?",
@@ -78,8 +90,5 @@ pub(super) const AGREEING: &[(&str, &str)] = &[
         "several pairs of tiers of {recording} would go onto the tier {tier}",
         "plusieurs paires d’acteurs de {recording} iraient sur l’acteur {tier}",
     ),
-    (
-        "name one pair with --a and --b",
-        "nommez une seule paire avec --a et --b",
-    ),
+    ("name one pair of tiers", "nommez une seule paire d’acteurs"),
 ];
