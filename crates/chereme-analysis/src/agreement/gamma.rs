@@ -529,6 +529,9 @@ impl Source {
                 }
             }
         }
+        // Sorted numbers have the same sum whoever comes first.
+        gaps.sort_by(f64::total_cmp);
+        lengths.sort_by(f64::total_cmp);
         let all: f64 = counts.values().sum();
         let mut sum = 0.0;
         let shares = counts.into_iter().map(|(value, count)| {

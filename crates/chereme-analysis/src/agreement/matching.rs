@@ -222,7 +222,8 @@ impl Table {
         Ok(diagonal.map(|(a, b)| a * b).sum::<f64>() / total)
     }
 
-    /// Returns the modified kappa of Holle and Rein.
+    /// Returns the modified kappa of Holle and Rein, as ELAN computes it: after 20 rounds of fitting the last digits depend on
+    /// who is the first annotator.
     ///
     /// # Errors
     /// [`Undefined::BothEmpty`], [`Undefined::OneValue`].

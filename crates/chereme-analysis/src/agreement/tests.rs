@@ -252,6 +252,10 @@ fn gamma_is_one_less_the_share_of_chance_and_repeats_by_seed() {
     let interval = found.interval.expect("an interval");
     let value = found.gamma.expect("gamma");
     assert!(interval.low < value && value < interval.high);
+    let turned: Vec<Vec<Unit>> = continuum[0].tiers().iter().rev().cloned().collect();
+    let turned = [Continuum::new((0, 6000), turned)];
+    let other = gamma::<Undefined>(&turned, &costs, &sampling, |_| Ok(())).expect("gamma");
+    near(other.gamma, value);
     let stopped = gamma(&continuum, &costs, &sampling, |_| Err(Undefined::TooMany));
     assert_eq!(stopped, Err(Undefined::TooMany));
 }

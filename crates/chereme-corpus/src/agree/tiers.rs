@@ -61,18 +61,9 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
     let annotations = all.iter().flat_map(|it| it.2.iter().flatten());
     let spans_only = !annotations.clone().any(|it| value(it, None).is_some());
     let mut values = Values::default();
-    let (mut pairs, mut handshapes) = (Vec::new(), true);
+    let (mut read, mut handshapes) = (Vec::new(), true);
     for (recording, [a, b], both) in all {
-        let handshape = |tier: &TierRow| {
-            matches!(
-                &tier.role,
-                TierRole::Component {
-                    component: Component::Configuration,
-                    feature: None
-                }
-            )
-        };
-        let both_handshapes = handshape(&a) && handshape(&b);
+        let both_handshapes = is_handshape(&a) && is_handshape(&b);
         // A vocabulary of a file has no features; inventories of handshapes have them for the same names.
         let usual: Vec<&Inventory> = match both_handshapes {
             true => inventories
@@ -87,46 +78,36 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
         let mut tiers = Vec::new();
         let (mut kept, mut left_out) = ([Vec::new(), Vec::new()], [0, 0]);
         for (side, annotations) in both.into_iter().enumerate() {
-            let mut units: Vec<(Unit, AnnotationRow)> = Vec::new();
-            for annotation in annotations {
-                let value = match spans_only {
-                    true => Some(String::new()),
-                    false => value(&annotation, shared),
-                };
-                let Some(value) = value else {
-                    left_out[side] += 1;
-                    continue;
-                };
-                let known = || shared.into_iter().chain(usual.iter().copied());
-                let number = values.number(value, known);
-                let (start, end) = (
-                    milliseconds(annotation.start_us),
-                    milliseconds(annotation.end_us),
-                );
-                units.push((Unit::new(start, end.max(start + 1), number), annotation));
-            }
-            units.sort_by_key(|(unit, row)| (*unit, row.id));
-            let (units, rows): (Vec<Unit>, Vec<AnnotationRow>) = units.into_iter().unzip();
+            let value = |annotation: &AnnotationRow| match spans_only {
+                true => Some(String::new()),
+                false => value(annotation, shared),
+            };
+            let known = || shared.into_iter().chain(usual.iter().copied());
+            let (units, rows, without) = units(annotations, value, |it| values.number(it, known));
+            left_out[side] = without;
             tiers.push(units);
             kept[side] = rows;
         }
-        let extent = match options.whole {
-            true => (0, milliseconds(recording.duration_us)),
-            false => {
-                let all = || tiers.iter().flatten();
-                let start = all().map(|it: &Unit| it.start).min().unwrap_or(0);
-                (start, all().map(|it| it.end).max().unwrap_or(start))
-            }
-        };
-        pairs.push(TierPair {
-            continuum: Continuum::new(extent, tiers),
-            recording,
-            a,
-            b,
-            annotations: kept,
-            left_out,
-        });
+        let extent = extent(&recording, &tiers, options);
+        read.push((recording, [a, b], kept, left_out, extent, tiers));
     }
+    let sorted = values.sorted();
+    let pairs = read.into_iter().map(
+        |(recording, [a, b], annotations, left_out, extent, mut tiers)| {
+            for unit in tiers.iter_mut().flatten() {
+                unit.value = sorted[unit.value];
+            }
+            TierPair {
+                continuum: Continuum::new(extent, tiers),
+                recording,
+                a,
+                b,
+                annotations,
+                left_out,
+            }
+        },
+    );
+    let pairs: Vec<TierPair> = pairs.collect();
     if spans_only && pairs.iter().any(|it| it.continuum.units() > 0) {
         findings.push("no annotation has a value, so only spans are compared".to_owned());
     }
@@ -140,6 +121,47 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
         spans_only,
         findings,
     })
+}
+
+/// Returns the annotations with values as units in order of time, and how many have no value.
+fn units(
+    annotations: Vec<AnnotationRow>,
+    value: impl Fn(&AnnotationRow) -> Option<String>,
+    mut number: impl FnMut(String) -> usize,
+) -> (Vec<Unit>, Vec<AnnotationRow>, u64) {
+    let (mut all, mut left_out): (Vec<(Unit, AnnotationRow)>, u64) = (Vec::new(), 0);
+    for row in annotations {
+        let Some(value) = value(&row) else {
+            left_out += 1;
+            continue;
+        };
+        let (start, end) = (milliseconds(row.start_us), milliseconds(row.end_us));
+        all.push((Unit::new(start, end.max(start + 1), number(value)), row));
+    }
+    all.sort_by_key(|(unit, row)| (*unit, row.id));
+    let (units, rows) = all.into_iter().unzip();
+    (units, rows, left_out)
+}
+
+/// Returns the time that counts as annotated, in milliseconds.
+fn extent(recording: &RecordingRow, tiers: &[Vec<Unit>], options: &AgreeOptions) -> (i64, i64) {
+    if options.whole {
+        return (0, milliseconds(recording.duration_us));
+    }
+    let all = || tiers.iter().flatten();
+    let start = all().map(|it| it.start).min().unwrap_or(0);
+    (start, all().map(|it| it.end).max().unwrap_or(start))
+}
+
+/// Returns whether a tier holds handshapes.
+fn is_handshape(tier: &TierRow) -> bool {
+    matches!(
+        &tier.role,
+        TierRole::Component {
+            component: Component::Configuration,
+            feature: None
+        }
+    )
 }
 
 fn is_of_handshapes(inventory: &Inventory) -> bool {
@@ -193,6 +215,23 @@ impl Values {
         self.names.push(value.clone());
         self.numbers.insert(value, number);
         number
+    }
+
+    /// Puts the values in alphabetical order, so that their numbers do not depend on who comes first; returns the new number
+    /// of each old one.
+    fn sorted(&mut self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.names.len()).collect();
+        order.sort_by(|a, b| self.names[*a].cmp(&self.names[*b]));
+        let mut numbers = vec![0; order.len()];
+        for (new, old) in order.iter().enumerate() {
+            numbers[*old] = new;
+        }
+        self.names = order.iter().map(|old| self.names[*old].clone()).collect();
+        self.features = order
+            .iter()
+            .map(|old| self.features[*old].clone())
+            .collect();
+        numbers
     }
 }
 
