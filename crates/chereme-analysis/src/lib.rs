@@ -2,6 +2,7 @@
 //!
 //! | module | holds |
 //! |---|---|
+//! | [`agreement`](mod@agreement) | how far annotators agree: on values, on spans, on both |
 //! | [`align`](mod@align) | the shift at which two signals of one event are most similar |
 //! | [`cue`](mod@cue) | captured cued speech: models, restoration, recognisers, targets, generated sessions |
 //! | [`detect`] | detectors behind one trait: spans, fields, values and confidences |
@@ -17,6 +18,7 @@
 //! | [`strokes`](mod@strokes) | transitions of wrists and fingers between two minima of their speed |
 //! | [`transcribe`](mod@transcribe) | the notation of a sign: HamNoSys with residuals |
 
+pub mod agreement;
 pub mod align;
 pub mod cue;
 pub mod detect;

@@ -10,6 +10,8 @@
 use std::cmp::Ordering;
 use std::f32::consts::PI;
 
+use crate::random::Random;
+
 /// The features of a thing: indices of features with weights above 0, each index once.
 pub type Features = Vec<(u32, f32)>;
 
@@ -106,7 +108,7 @@ pub fn lay_out(
     mut goes_on: impl FnMut(f32) -> bool,
 ) -> Option<Vec<[f32; 2]>> {
     let edges = edges(neighbours);
-    let mut random = Random(0x9E37_79B9_7F4A_7C15);
+    let mut random = Draws(Random::new(0x9E37_79B9_7F4A_7C15));
     let mut places = start(neighbours.len(), &edges, &mut random);
     let heaviest = edges.iter().map(|edge| edge.weight).fold(0.0, f32::max);
     // An edge takes part with a frequency proportional to its weight.
@@ -169,7 +171,7 @@ fn edges(neighbours: &[Neighbours]) -> Vec<Edge> {
 }
 
 /// Returns the initial positions: the second and third eigenvectors of the graph's random walk, with a little noise.
-fn start(count: usize, edges: &[Edge], random: &mut Random) -> Vec<[f32; 2]> {
+fn start(count: usize, edges: &[Edge], random: &mut Draws) -> Vec<[f32; 2]> {
     let mut degrees = vec![1e-6_f32; count];
     for edge in edges {
         degrees[edge.a] += edge.weight;
@@ -297,25 +299,17 @@ fn fitted(mut places: Vec<[f32; 2]>) -> Vec<[f32; 2]> {
     places
 }
 
-/// A generator of random numbers with a fixed seed (splitmix64).
-struct Random(u64);
+/// Random numbers in the forms that the layout needs.
+struct Draws(Random);
 
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
-    }
-
+impl Draws {
     fn below(&mut self, limit: usize) -> usize {
-        (self.next() % limit.max(1) as u64) as usize
+        (self.0.bits() % limit.max(1) as u64) as usize
     }
 
     /// Returns a number from -1 to 1.
     fn signed(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
+        (self.0.bits() >> 40) as f32 / (1_u64 << 23) as f32 - 1.0
     }
 }
 

@@ -13,7 +13,8 @@ impl Random {
         Self(seed)
     }
 
-    fn bits(&mut self) -> u64 {
+    /// Returns 64 random bits.
+    pub(crate) fn bits(&mut self) -> u64 {
         self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
         let mut z = self.0;
         z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
@@ -37,6 +38,7 @@ impl Random {
         ((self.share() * end as f64) as usize).min(end.saturating_sub(1))
     }
 
+    /// Returns a vector of three normal numbers with this standard deviation.
     pub(crate) fn vector(&mut self, sd: f64) -> DVec3 {
         DVec3::new(self.normal(), self.normal(), self.normal()) * sd
     }

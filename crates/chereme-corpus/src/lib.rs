@@ -5,6 +5,7 @@
 //! with its changeset. Nothing here prints, prompts, or reads the environment.
 
 mod address;
+mod agree;
 mod animate;
 mod annotate;
 mod author;
@@ -76,6 +77,11 @@ pub use chereme_sign::tier::spans::Mode;
 pub use chereme_sign::{Stereotype, TierRole, TierTopic};
 
 pub use address::{Address, Name, Stretch};
+pub use agree::{
+    Adjudicated, AgreeOptions, Agreement, Confusion, Disagreement, DisagreementCounts,
+    DisagreementKind, DisagreementSide, FEWEST_UNITS, Figure, FigureInterval, MEASURES,
+    PairAgreement, UnitCounts, ValueAgreement,
+};
 pub use animate::Staging;
 pub use annotate::{
     AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName, Copied,

@@ -1,5 +1,6 @@
 //! The list of commands, with one module for each, and errors that all of them share.
 
+mod agree;
 mod animate;
 mod annotate;
 mod check;
@@ -92,6 +93,7 @@ commands! {
     Onsets => onsets::run(Args) or offer_force;
     Suggest => suggest::run(Args);
     Pairs => pairs::run(Args);
+    Agree => agree::run(Args) or offer_force;
     Map => map::run(Args) or offer_force;
     Transcribe => transcribe::run(Args);
     Cue => cue::run(Args);

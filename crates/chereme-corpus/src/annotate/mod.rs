@@ -212,13 +212,23 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
         let work = |connection: &Connection, progress: &mut Progress<'_>| {
-            for tier in new {
-                tiers::insert(connection, tier)?;
-            }
-            carry_out(connection, changes, options, Vec::new(), progress)
+            write_tiers(connection, new, (changes, options), progress)
         };
         self.store.operation_with_progress(name, progress, work)
     }
+}
+
+/// Adds tiers and changes annotations inside the caller's operation; returns the report, and the summary for the history.
+pub(crate) fn write_tiers(
+    connection: &Connection,
+    new: &[NewTier],
+    (changes, options): (&[AnnotationChange], &AnnotateOptions),
+    progress: &mut Progress<'_>,
+) -> Result<(AnnotateReport, String)> {
+    for tier in new {
+        tiers::insert(connection, tier)?;
+    }
+    carry_out(connection, changes, options, Vec::new(), progress)
 }
 
 /// Carries out changes of annotations; returns the report, and the summary for the history.

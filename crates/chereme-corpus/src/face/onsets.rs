@@ -72,7 +72,7 @@ pub struct Quartiles {
 
 impl Quartiles {
     /// Returns the quartiles of numbers; `None` without any.
-    fn of(mut values: Vec<f64>) -> Option<Self> {
+    pub(crate) fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_by(f64::total_cmp);
         let last = values.len().checked_sub(1)?;
         let at = |share: f64| {

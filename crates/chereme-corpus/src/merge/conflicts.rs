@@ -174,9 +174,18 @@ fn image(connection: &Connection, row: &AnnotationRow) -> Result<Image> {
     Ok(image)
 }
 
-/// Returns a uid for an annotation that only a file has: the same one at every import of the file.
+/// Returns a uid for an annotation that only the other side has: the same one at every import of its file. Without an id
+/// of a file the start and the value stand for it.
 fn made_uid(image: &Image) -> String {
-    let text = format!("{:?} {:?}", image.get("tier_id"), image.get("external_id"));
+    let (tier, id) = (image.get("tier_id"), image.get("external_id"));
+    let text = match id.filter(|id| !id.is_null()) {
+        Some(_) => format!("{tier:?} {id:?}"),
+        None => format!(
+            "{tier:?} {:?} {:?}",
+            image.get("start_us"),
+            image.get("value")
+        ),
+    };
     crate::db::motion::hex(&Sha256::digest(text.as_bytes())[..16]).to_uppercase()
 }
 
@@ -378,12 +387,23 @@ fn local(side: &Side<'_>, table: &str, image: &Image) -> Result<Image> {
     Ok(local)
 }
 
+/// Returns whether an annotation still overlaps a candidate: an earlier decision may have moved it away.
+fn still_overlaps(connection: &Connection, other: i64, theirs: Option<&Image>) -> Result<bool> {
+    let time = |column: &str| theirs?.get(column)?.as_i64();
+    let (Some(start), Some(end)) = (time("start_us"), time("end_us")) else {
+        return Ok(true);
+    };
+    let row = tiers::annotation(connection, other)?;
+    Ok(row.start_us < end && start < row.end_us)
+}
+
 fn theirs(connection: &Connection, open: &Open) -> Result<()> {
     let side = Side::now(connection);
     let id = side.id(&open.table, &open.uid)?;
     if let Some(other) = &open.other
         && let Some(other) = side.id("annotation", other)?
         && Some(other) != id
+        && still_overlaps(connection, other, open.theirs.as_ref())?
     {
         remove(connection, other)?;
     }

@@ -3,7 +3,7 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 33] = [
+const NOUNS: [(&str, &str, &str, &str); 36] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("answers", "answer", "réponse", "réponses"),
     ("attributes", "attribute", "attribut", "attributs"),
@@ -33,6 +33,12 @@ const NOUNS: [(&str, &str, &str, &str); 33] = [
         "paire d’images",
         "paires d’images",
     ),
+    (
+        "pairs of tiers",
+        "pair of tiers",
+        "paire d’acteurs",
+        "paires d’acteurs",
+    ),
     ("points", "point", "point", "points"),
     ("recipes", "recipe", "recette", "recettes"),
     (
@@ -42,6 +48,7 @@ const NOUNS: [(&str, &str, &str, &str); 33] = [
         "enregistrements",
     ),
     ("rows", "row", "ligne", "lignes"),
+    ("samples", "sample", "échantillon", "échantillons"),
     ("searches", "search", "recherche", "recherches"),
     ("signers", "signer", "signeur", "signeurs"),
     ("signs", "sign", "signe", "signes"),
@@ -50,6 +57,7 @@ const NOUNS: [(&str, &str, &str, &str); 33] = [
     ("symbols", "symbol", "symbole", "symboles"),
     ("tiers", "tier", "acteur", "acteurs"),
     ("tokens", "token", "occurrence", "occurrences"),
+    ("units", "unit", "unité", "unités"),
     ("values", "value", "valeur", "valeurs"),
     ("tracks", "track", "piste", "pistes"),
 ];

@@ -60,6 +60,7 @@ texts! {
     DID_TRANSCRIBE: "Transcribed: {what}", "Transcrit : {what}";
     DID_PROPOSE: "Proposed from movement: {what}", "Proposé d’après le mouvement : {what}";
     DID_ACCEPT: "Proposed values accepted: {n}, in {place}", "Valeurs proposées acceptées : {n}, dans {place}";
+    DID_ADJUDICATE: "Adjudicated on the tier {what}", "Tranché sur l’acteur {what}";
     DID_ADD_TIERS: "Tiers added: {what}", "Acteurs ajoutés : {what}";
     DID_COPY_TIER: "Tier copied: {what}", "Acteur copié : {what}";
     DID_ORDER_TIERS: "Tiers put in order: {what}", "Acteurs remis en ordre : {what}";
@@ -152,6 +153,7 @@ fn accepted(summary: &str) -> Option<(&str, &str)> {
 fn plain(name: &str) -> Option<Text> {
     Some(match name {
         "remove tier" => DID_REMOVE_TIER,
+        "adjudicate" => DID_ADJUDICATE,
         "add tiers" => DID_ADD_TIERS,
         "copy tier" => DID_COPY_TIER,
         "order tiers" => DID_ORDER_TIERS,

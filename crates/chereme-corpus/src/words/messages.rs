@@ -9,6 +9,7 @@ use chereme_analysis::detect::DETECTORS;
 use chereme_compose::recipe::Step;
 
 use super::Language;
+use super::agreeing::AGREEING;
 use super::asking::ASKING;
 use super::captures::CAPTURES;
 use super::coding::CODING;
@@ -514,8 +515,9 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
     let first = MESSAGES.iter().chain(FINDINGS).chain(QUERIES).copied();
     let operators = Step::DESCRIPTIONS.iter().flat_map(|it| it.messages);
     let detectors = DETECTORS.iter().flat_map(|it| it.description().messages);
-    let rest = NOTES
+    let rest = AGREEING
         .iter()
+        .chain(NOTES)
         .chain(MOVING)
         .chain(IMPORTING)
         .chain(FILMING)

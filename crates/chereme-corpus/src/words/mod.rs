@@ -22,6 +22,7 @@ macro_rules! texts {
     };
 }
 
+mod agreeing;
 mod asking;
 mod captures;
 mod coding;

@@ -1,0 +1,321 @@
+//! Agreement on values of the same items.
+//!
+//! Values are numbers of categories; for weighted kappa and ordinal alpha they are positions in an order, which counts
+//! categories that nobody used, too. An item with one value takes part in no pair.
+
+use std::collections::BTreeMap;
+
+use super::{Measure, Undefined, below_chance, beyond_chance};
+
+/// The values of one item, one place for each annotator.
+pub type Item = Vec<Option<usize>>;
+
+/// The weight of a disagreement in weighted kappa.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Weight {
+    /// The distance of the two positions.
+    Linear,
+    /// Its square.
+    Quadratic,
+}
+
+/// The squared difference of two values in alpha.
+#[derive(Clone, Copy)]
+pub enum Scale<'a> {
+    /// 0 for equal values, otherwise 1.
+    Nominal,
+    /// Krippendorff's ordinal difference: the pooled counts of values between the two.
+    Ordinal,
+    /// The square of the difference of the positions.
+    Interval,
+    /// Any other; it is not squared again.
+    Distance(&'a dyn Fn(usize, usize) -> f64),
+}
+
+/// Returns the pairs of two annotators who both gave a value.
+#[must_use]
+pub fn pairs(items: &[Item]) -> Vec<(usize, usize)> {
+    let pair = |item: &Item| match item[..] {
+        [Some(a), Some(b), ..] => Some((a, b)),
+        _ => None,
+    };
+    items.iter().filter_map(pair).collect()
+}
+
+/// Returns the share of equal pairs among all pairs of values of one item.
+///
+/// # Errors
+/// [`Undefined::NoPair`].
+pub fn raw(items: &[Item]) -> Measure {
+    let (mut equal, mut all) = (0_u64, 0_u64);
+    for item in items {
+        let values: Vec<usize> = item.iter().flatten().copied().collect();
+        for (nth, a) in values.iter().enumerate() {
+            for b in &values[nth + 1..] {
+                all += 1;
+                equal += u64::from(a == b);
+            }
+        }
+    }
+    if all == 0 {
+        return Err(Undefined::NoPair);
+    }
+    Ok(equal as f64 / all as f64)
+}
+
+/// The counts of a square table of two annotators: its margins and its diagonal.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Counts {
+    /// The sum of each row, by the values of the first.
+    pub rows: Vec<f64>,
+    /// The sum of each column, by the values of the second.
+    pub columns: Vec<f64>,
+    /// The cells with equal values.
+    pub equal: Vec<f64>,
+}
+
+impl Counts {
+    /// Returns counts of zero for so many values.
+    #[must_use]
+    pub fn none(values: usize) -> Self {
+        Self {
+            rows: vec![0.0; values],
+            columns: vec![0.0; values],
+            equal: vec![0.0; values],
+        }
+    }
+
+    /// Returns the counts of pairs.
+    #[must_use]
+    pub fn of(pairs: &[(usize, usize)]) -> Self {
+        let most = pairs.iter().map(|(a, b)| 1 + a.max(b)).max();
+        let mut counts = Self::none(most.unwrap_or(0));
+        for (a, b) in pairs {
+            counts.add(*a, *b, 1.0);
+        }
+        counts
+    }
+
+    /// Adds a pair so many times.
+    pub fn add(&mut self, a: usize, b: usize, times: f64) {
+        self.rows[a] += times;
+        self.columns[b] += times;
+        if a == b {
+            self.equal[a] += times;
+        }
+    }
+
+    /// Returns the number of pairs.
+    #[must_use]
+    pub fn total(&self) -> f64 {
+        self.rows.iter().sum()
+    }
+
+    /// Returns the share of equal pairs.
+    ///
+    /// # Errors
+    /// [`Undefined::NoPair`].
+    pub fn raw(&self) -> Measure {
+        let total = self.total();
+        if total == 0.0 {
+            return Err(Undefined::NoPair);
+        }
+        Ok(self.equal.iter().sum::<f64>() / total)
+    }
+
+    /// Returns the agreement that is expected if each annotator keeps the own shares of values.
+    #[must_use]
+    pub fn chance(&self) -> f64 {
+        let both = self.rows.iter().zip(&self.columns);
+        both.map(|(a, b)| a * b).sum::<f64>() / (self.total() * self.total())
+    }
+
+    /// Returns Cohen's kappa (1960).
+    ///
+    /// # Errors
+    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
+    pub fn cohen(&self) -> Measure {
+        beyond_chance(self.raw()?, self.chance())
+    }
+
+    /// Returns Scott's pi (1955): chance from the shares of both together.
+    ///
+    /// # Errors
+    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
+    pub fn scott(&self) -> Measure {
+        let (raw, total) = (self.raw()?, 2.0 * self.total());
+        let both = self.rows.iter().zip(&self.columns);
+        beyond_chance(raw, both.map(|(a, b)| ((a + b) / total).powi(2)).sum())
+    }
+
+    /// Returns Gwet's AC1 (2008) of two annotators, see [`gwet`].
+    ///
+    /// # Errors
+    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
+    pub fn gwet(&self) -> Measure {
+        let (raw, total) = (self.raw()?, 2.0 * self.total());
+        let both = self.rows.iter().zip(&self.columns);
+        gwet_of(raw, both.map(|(a, b)| (a + b) / total))
+    }
+
+    /// Returns Krippendorff's nominal alpha of two annotators.
+    ///
+    /// # Errors
+    /// [`Undefined::NoPair`], [`Undefined::OneValue`].
+    pub fn alpha(&self) -> Measure {
+        let (raw, values) = (self.raw()?, 2.0 * self.total());
+        let both = self.rows.iter().zip(&self.columns);
+        let equal: f64 = both.map(|(a, b)| (a + b) * (a + b - 1.0)).sum();
+        let expected = 1.0 - equal / (values * (values - 1.0));
+        if expected.abs() < 1e-12 {
+            return Err(Undefined::OneValue);
+        }
+        below_chance(1.0 - raw, expected, Undefined::OneValue)
+    }
+}
+
+/// Returns weighted kappa (Cohen 1968): `1 - Σ w O / Σ w E` over positions in an order.
+///
+/// # Errors
+/// [`Undefined::NoPair`], [`Undefined::OneValue`].
+pub fn weighted_kappa(items: &[Item], weight: Weight) -> Measure {
+    let pairs = pairs(items);
+    if pairs.is_empty() {
+        return Err(Undefined::NoPair);
+    }
+    let counts = Counts::of(&pairs);
+    let cost = |a: usize, b: usize| {
+        let apart = a.abs_diff(b) as f64;
+        match weight {
+            Weight::Linear => apart,
+            Weight::Quadratic => apart * apart,
+        }
+    };
+    let observed: f64 = pairs.iter().map(|(a, b)| cost(*a, *b)).sum();
+    let mut expected = 0.0;
+    for (a, row) in counts.rows.iter().enumerate() {
+        for (b, column) in counts.columns.iter().enumerate() {
+            expected += cost(a, b) * row * column;
+        }
+    }
+    below_chance(observed, expected / counts.total(), Undefined::OneValue)
+}
+
+/// Returns the kappa of Fleiss (1971) for any number of annotators who all gave a value to each item.
+///
+/// # Errors
+/// [`Undefined::NoPair`], [`Undefined::Missing`], [`Undefined::OneValue`].
+pub fn fleiss(items: &[Item]) -> Measure {
+    let each = items.first().map_or(0, Vec::len);
+    if each < 2 {
+        return Err(Undefined::NoPair);
+    }
+    let full = |item: &Item| item.len() == each && item.iter().all(Option::is_some);
+    if !items.iter().all(full) {
+        return Err(Undefined::Missing);
+    }
+    let counts = pooled(items);
+    let all = (items.len() * each) as f64;
+    let chance = counts.values().map(|count| (count / all).powi(2)).sum();
+    beyond_chance(raw(items)?, chance)
+}
+
+/// Returns Gwet's AC1 (2008) for any number of annotators: chance is `Σ p (1 - p) / (q - 1)` over the q used values.
+///
+/// The agreement is the mean over the items with two values; shares of values are means over items with any.
+///
+/// # Errors
+/// [`Undefined::NoPair`], [`Undefined::OneValue`].
+pub fn gwet(items: &[Item]) -> Measure {
+    let (mut agreed, mut several, mut any) = (0.0, 0.0, 0.0);
+    let mut shares: BTreeMap<usize, f64> = BTreeMap::new();
+    for item in items {
+        let mut counts: BTreeMap<usize, f64> = BTreeMap::new();
+        for value in item.iter().flatten() {
+            *counts.entry(*value).or_default() += 1.0;
+        }
+        let all: f64 = counts.values().sum();
+        if all == 0.0 {
+            continue;
+        }
+        any += 1.0;
+        for (value, count) in &counts {
+            *shares.entry(*value).or_default() += count / all;
+        }
+        if all >= 2.0 {
+            several += 1.0;
+            let equal = counts.values().map(|count| count * (count - 1.0));
+            agreed += equal.sum::<f64>() / (all * (all - 1.0));
+        }
+    }
+    if several == 0.0 {
+        return Err(Undefined::NoPair);
+    }
+    gwet_of(agreed / several, shares.values().map(|share| share / any))
+}
+
+fn gwet_of(raw: f64, shares: impl Iterator<Item = f64>) -> Measure {
+    let used: Vec<f64> = shares.filter(|share| *share > 0.0).collect();
+    if used.len() < 2 {
+        return Err(Undefined::OneValue);
+    }
+    let spread: f64 = used.iter().map(|share| share * (1.0 - share)).sum();
+    beyond_chance(raw, spread / (used.len() - 1) as f64)
+}
+
+/// Returns Krippendorff's alpha (2011) for any number of annotators and missing values.
+///
+/// # Errors
+/// [`Undefined::NoPair`], [`Undefined::OneValue`].
+pub fn alpha(items: &[Item], scale: Scale<'_>) -> Measure {
+    let several = |item: &&Item| item.iter().flatten().count() >= 2;
+    let items: Vec<Item> = items.iter().filter(several).cloned().collect();
+    if items.is_empty() {
+        return Err(Undefined::NoPair);
+    }
+    let counts = pooled(&items);
+    let total: f64 = counts.values().sum();
+    let delta = |a: usize, b: usize| -> f64 {
+        let apart = a.abs_diff(b) as f64;
+        match scale {
+            _ if a == b => 0.0,
+            Scale::Nominal => 1.0,
+            Scale::Interval => apart * apart,
+            Scale::Ordinal => {
+                let ends = |value: usize| counts.get(&value).copied().unwrap_or(0.0);
+                let between: f64 = counts.range(a.min(b)..=a.max(b)).map(|(_, n)| n).sum();
+                (between - (ends(a) + ends(b)) / 2.0).powi(2)
+            }
+            Scale::Distance(distance) => distance(a, b),
+        }
+    };
+    let mut observed = 0.0;
+    for item in &items {
+        let values: Vec<usize> = item.iter().flatten().copied().collect();
+        let mut sum = 0.0;
+        for (nth, a) in values.iter().enumerate() {
+            sum += values[nth + 1..].iter().map(|b| delta(*a, *b)).sum::<f64>();
+        }
+        observed += 2.0 * sum / (values.len() - 1) as f64;
+    }
+    let mut expected = 0.0;
+    for (a, of_a) in &counts {
+        for (b, of_b) in counts.range(a + 1..) {
+            expected += 2.0 * of_a * of_b * delta(*a, *b);
+        }
+    }
+    below_chance(
+        observed / total,
+        expected / (total * (total - 1.0)),
+        Undefined::OneValue,
+    )
+}
+
+/// Returns how many times each value was given.
+fn pooled(items: &[Item]) -> BTreeMap<usize, f64> {
+    let mut counts = BTreeMap::new();
+    for value in items.iter().flatten().flatten() {
+        *counts.entry(*value).or_default() += 1.0;
+    }
+    counts
+}

@@ -1,0 +1,207 @@
+//! Agreement between annotators: on values of the same items, on spans and values of two tiers, on boundaries.
+//!
+//! | module | holds |
+//! |---|---|
+//! | [`items`] | raw agreement, kappa of Cohen, Scott and Fleiss, AC1 of Gwet, alpha of Krippendorff |
+//! | [`matching`] | two tiers as ELAN compares them: ratio of overlap, matched units, modified kappa |
+//! | [`unitizing`] | alpha over time: alpha_U, the u-alpha family, frames |
+//! | [`gamma`] | alignment of least disorder, gamma and gamma_cat |
+//! | [`segments`] | boundary similarity, WindowDiff, Pk |
+//! | [`resample`] | percentile intervals from a seed |
+//!
+//! A figure that is undefined is an [`Undefined`] with its reason, never NaN, 0 or 1. Times are whole numbers of any unit;
+//! alpha_U counts in this unit, and its authors count milliseconds.
+//!
+//! Limits. Gamma's chance is drawn as in pygamma-agreement, where the paper shifts real units: numbers of other programs
+//! differ by some 0.05, and by more on few units. The expected term of cuα is a limit, because the paper was not at hand.
+//! The alignment of three or more annotators is exact, or refused if the search is too long. Staccato is left out.
+//!
+//! ```
+//! use chereme_analysis::agreement::{items::Counts, Undefined};
+//!
+//! let counts = Counts::of(&[(0, 0), (0, 1), (1, 1), (1, 1)]);
+//! assert_eq!(counts.cohen(), Ok(0.5));
+//! assert_eq!(Counts::of(&[(0, 0)]).cohen(), Err(Undefined::OneValue));
+//! ```
+
+mod assignment;
+pub mod gamma;
+pub mod items;
+pub mod matching;
+pub mod resample;
+pub mod segments;
+#[cfg(test)]
+mod tests;
+pub mod unitizing;
+
+use thiserror::Error;
+
+/// A figure, or the reason why it is undefined.
+pub type Measure = Result<f64, Undefined>;
+
+/// The reason why a figure is undefined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Error)]
+pub enum Undefined {
+    /// No tier has a unit.
+    #[error("both tiers empty")]
+    BothEmpty,
+    /// All units or items have the same value, so that chance alone would agree.
+    #[error("one value only")]
+    OneValue,
+    /// Nobody else gave a value to any item that has one.
+    #[error("no item has two values")]
+    NoPair,
+    /// The figure needs two annotators, or a value from each for every item.
+    #[error("values are missing")]
+    Missing,
+    /// Chance alone explains all, for another reason than a single value.
+    #[error("no disagreement is expected by chance")]
+    NoChance,
+    /// There is no boundary within the time.
+    #[error("no boundary")]
+    NoBoundary,
+    /// The units do not follow each other without gaps.
+    #[error("units with gaps between them")]
+    Gaps,
+    /// More units overlap than can be aligned.
+    #[error("too many units overlap")]
+    TooMany,
+}
+
+/// A span with a value.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Unit {
+    /// The start.
+    pub start: i64,
+    /// The first moment after it.
+    pub end: i64,
+    /// The number of its value.
+    pub value: usize,
+}
+
+impl Unit {
+    /// Returns the unit of a span with a value.
+    #[must_use]
+    pub fn new(start: i64, end: i64, value: usize) -> Self {
+        Self { start, end, value }
+    }
+
+    /// Returns the length.
+    #[must_use]
+    pub fn length(&self) -> i64 {
+        self.end - self.start
+    }
+
+    /// Returns the time that both cover; touching units share none.
+    #[must_use]
+    pub fn shared(&self, other: &Self) -> i64 {
+        (self.end.min(other.end) - self.start.max(other.start)).max(0)
+    }
+}
+
+/// The largest time of a unit, on either side of 0: some 30 years in milliseconds.
+const MOST_TIME: i64 = 1 << 40;
+
+/// The units of each annotator over one stretch of time.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Continuum {
+    start: i64,
+    end: i64,
+    tiers: Vec<Vec<Unit>>,
+}
+
+impl Continuum {
+    /// Creates the continuum of a stretch of time from the units of each annotator.
+    ///
+    /// Units are put in the order of time; units without length are left out; the stretch is extended to hold every
+    /// unit.
+    #[must_use]
+    pub fn new((start, end): (i64, i64), tiers: Vec<Vec<Unit>>) -> Self {
+        let within = |time: i64| time.clamp(-MOST_TIME, MOST_TIME);
+        let cleaned = |units: Vec<Unit>| {
+            let units = units.into_iter().map(|it| Unit {
+                start: within(it.start),
+                end: within(it.end),
+                ..it
+            });
+            let mut units: Vec<Unit> = units.filter(|it| it.end > it.start).collect();
+            units.sort_unstable();
+            units
+        };
+        let tiers: Vec<Vec<Unit>> = tiers.into_iter().map(cleaned).collect();
+        let (mut start, mut end) = (within(start), within(end));
+        for unit in tiers.iter().flatten() {
+            start = start.min(unit.start);
+            end = end.max(unit.end);
+        }
+        let end = end.max(start);
+        Self { start, end, tiers }
+    }
+
+    /// Returns the start of the stretch.
+    #[must_use]
+    pub fn start(&self) -> i64 {
+        self.start
+    }
+
+    /// Returns the first moment after the stretch.
+    #[must_use]
+    pub fn end(&self) -> i64 {
+        self.end
+    }
+
+    /// Returns the units of each annotator, by time.
+    #[must_use]
+    pub fn tiers(&self) -> &[Vec<Unit>] {
+        &self.tiers
+    }
+
+    /// Returns the number of units of all annotators.
+    #[must_use]
+    pub fn units(&self) -> usize {
+        self.tiers.iter().map(Vec::len).sum()
+    }
+
+    /// Returns the continua one after another as one.
+    #[must_use]
+    pub fn joined(all: &[Self]) -> Self {
+        let annotators = all.iter().map(|it| it.tiers.len()).max().unwrap_or(0);
+        let mut tiers = vec![Vec::new(); annotators];
+        let mut end = 0_i64;
+        for one in all {
+            for (tier, units) in tiers.iter_mut().zip(&one.tiers) {
+                let moved = |it: &Unit| {
+                    Unit::new(
+                        it.start - one.start + end,
+                        it.end - one.start + end,
+                        it.value,
+                    )
+                };
+                tier.extend(units.iter().map(moved));
+            }
+            end += one.end - one.start;
+        }
+        Self {
+            start: 0,
+            end,
+            tiers,
+        }
+    }
+}
+
+/// Returns `(observed - expected) / (1 - expected)`.
+fn beyond_chance(observed: f64, expected: f64) -> Measure {
+    let room = 1.0 - expected;
+    if room.abs() < 1e-12 {
+        return Err(Undefined::OneValue);
+    }
+    Ok((observed - expected) / room)
+}
+
+/// Returns `1 - observed / expected` of disagreements.
+fn below_chance(observed: f64, expected: f64, reason: Undefined) -> Measure {
+    if expected.abs() < 1e-300 {
+        return Err(reason);
+    }
+    Ok(1.0 - observed / expected)
+}

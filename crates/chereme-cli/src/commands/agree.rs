@@ -1,0 +1,413 @@
+//! `chereme agree`: compares what two annotators made of the same recordings.
+
+mod french;
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{
+    AgreeOptions, Agreement, Disagreement, DisagreementSide, Error, Figure, Moment, Name, Progress,
+    Quartiles, Step,
+};
+use serde_json::json;
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+pub(super) use french::WORDS;
+
+/// Measure how far two annotators agree, on which values they differ, and where
+///
+/// Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, "*-A" and "*-B",
+/// whose star stands for the same text in both; by annotator:NAME, of which those tiers are compared that describe the
+/// same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the
+/// spans alone are compared.
+///
+/// Measures: kappa_ipf, raw, matched, kappa, kappa_max (ELAN's modified kappa of Holle and Rein: units match if 60 % of the
+/// longer one overlap); alpha_u, u_alpha, u_alpha_spans, cu_alpha (Krippendorff, over time); gamma, gamma_cat (Mathet, by
+/// alignment; chance is drawn as in pygamma-agreement); label_raw, label_kappa, label_pi, label_ac1, label_alpha,
+/// label_alpha_features (values of matched units alone; the last weighs the features of handshapes); overlap_a, overlap_b
+/// (ELAN's ratio of overlap, from either tier); frames_raw, frames_kappa, frames_alpha (10 ms each); boundaries (boundary
+/// similarity of tiers without gaps). A measure that is undefined has a reason instead of a number. With fewer than 10
+/// units, or one value, only counts are printed.
+///
+/// Intervals hold 95 of 100 draws of units, or of recordings if there are 10 or more. That of gamma only shows how exact
+/// its chance is: more --samples make it narrower.
+///
+/// `--json` gives "a", "b", "values", "units_a", "units_b", "matched", "equal", "unmatched_a", "unmatched_b",
+/// "left_out_a", "left_out_b", "counts_only", "measures" (each with "value" or null, "why", and "interval"), "onset_s" and
+/// "offset_s" (b less a: "q1", "median", "q3"), "by_value", "disagreements" (their numbers), "pairs" (each pair of tiers) and
+/// "findings"; with --list "list", with --confusion "confusion", with --into "adjudicated".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme agree mine.chereme --a 'Gloss Anna' --b 'Gloss Ben'
+  chereme agree mine.chereme --a '*-A' --b '*-B' --in recording:3 --list
+  chereme agree mine.chereme --a annotator:Anna --b annotator:Ben --confusion
+  chereme agree mine.chereme --a tier:4 --b tier:19 --measure kappa_ipf --json
+  chereme agree mine.chereme --a 'Gloss Anna' --b 'Gloss Ben' --into Gloss   (then decide: chereme conflicts mine.chereme)")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The tier of the first annotator
+    #[arg(long, value_name = "TIER")]
+    a: String,
+    /// The tier of the second annotator
+    #[arg(long, value_name = "TIER")]
+    b: String,
+    /// Only this recording
+    #[arg(long = "in", value_name = "RECORDING")]
+    recording: Option<String>,
+    /// Only these measures, separated by commas; `all` prints all, and without it the usual five are printed
+    #[arg(long = "measure", value_name = "NAME,...", value_delimiter = ',')]
+    measures: Vec<String>,
+    /// Starts or ends further apart than this are a disagreement
+    #[arg(long, value_name = "TIME", default_value = "80ms")]
+    tolerance: Moment,
+    /// The share of the longer unit, in percent, that must overlap for a match: 51 to 100
+    #[arg(long, value_name = "PERCENT", default_value_t = 60)]
+    overlap: u8,
+    /// The number of draws for intervals; 0 computes none
+    #[arg(long, value_name = "DRAWS", default_value_t = 1000)]
+    bootstrap: usize,
+    /// The number of random continua for gamma, at least 30; 0 leaves gamma out
+    #[arg(long, value_name = "N", default_value_t = 30)]
+    samples: usize,
+    /// The seed of all draws; the same seed gives the same numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Count the whole recording as annotated, instead of the time from the first annotation to the last
+    #[arg(long)]
+    whole: bool,
+    /// List the disagreements, the costliest first
+    #[arg(long)]
+    list: bool,
+    /// List the values that were confused, and the features in which they differ
+    #[arg(long)]
+    confusion: bool,
+    /// Write the disagreements to a table (.csv)
+    #[arg(long, value_name = "FILE")]
+    to: Option<PathBuf>,
+    /// Replace a table that exists already
+    #[arg(long)]
+    force: bool,
+    /// Write what both agree on to a new tier of this name, with a conflict for each disagreement, which `conflicts` decides
+    #[arg(long, value_name = "TIER")]
+    into: Option<String>,
+}
+
+/// The measures that are printed if nobody asks for others.
+const USUAL: [&str; 5] = ["kappa_ipf", "raw", "matched", "alpha_u", "gamma"];
+/// The most rows of values that are printed.
+const MOST_ROWS: usize = 30;
+
+impl Args {
+    fn options(&self) -> Result<AgreeOptions> {
+        let tolerance_us = match self.tolerance {
+            Moment::Time(time) if time.micros() >= 0 => time.micros(),
+            _ => {
+                return Err(Error::wrong("a tolerance is a time of 0 or more")
+                    .at("--tolerance")
+                    .advise("write 80ms, or 0.08s")
+                    .into());
+            }
+        };
+        let all = self.measures.iter().any(|it| it == "all");
+        Ok(AgreeOptions {
+            recording: self
+                .recording
+                .as_deref()
+                .map(Name::of_recording)
+                .transpose()?,
+            measures: if all {
+                Vec::new()
+            } else {
+                self.measures.clone()
+            },
+            share: f64::from(self.overlap) / 100.0,
+            tolerance_us,
+            draws: self.bootstrap,
+            samples: self.samples,
+            seed: self.seed,
+            whole: self.whole,
+            ..AgreeOptions::new(&self.a, &self.b)
+        })
+    }
+
+    /// Returns whether a measure is printed.
+    fn prints(&self, measure: &str) -> bool {
+        match self.measures.is_empty() {
+            true => USUAL.contains(&measure),
+            false => self.measures.iter().any(|it| it == measure || it == "all"),
+        }
+    }
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let options = args.options()?;
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let mut progress = Progress::new(&mut hear);
+    let found = corpus.agree(&options, &mut progress)?;
+    let adjudicated = match &args.into {
+        Some(into) => Some(corpus.adjudicate(&options, into, &mut progress)?),
+        None => None,
+    };
+    drop(bar);
+    print(&found, args, output)?;
+    let mut document = serde_json::to_value(&found)?;
+    if args.confusion {
+        confusion(&found, output)?;
+        document["confusion"] = json!(found.confusion);
+    }
+    if args.list {
+        list(&found.list, output)?;
+        document["list"] = json!(found.list);
+    }
+    if let Some(path) = &args.to {
+        found.write_disagreements(path, args.force)?;
+        output.line(format!("table of disagreements: {}", path.display()))?;
+    }
+    if let Some(it) = adjudicated {
+        output.line(format!(
+            "on the tier {:?}: {} on which both agree; {} to decide",
+            it.tier,
+            output.counted(it.agreed, "annotations"),
+            output.counted(it.conflicts, "conflicts"),
+        ))?;
+        document["adjudicated"] = json!(it);
+    }
+    output.document(document)
+}
+
+/// Prints counts, measures, and the table of values.
+fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
+    for finding in &found.findings {
+        output.warn(finding)?;
+    }
+    let counts = &found.counts;
+    output.line(format!(
+        "{:?} has {} units and {:?} has {}, in {}",
+        found.a,
+        counts.units_a,
+        found.b,
+        counts.units_b,
+        output.counted(found.pairs.len() as u64, "pairs of tiers"),
+    ))?;
+    output.line(format!(
+        "matched: {}, {} of them with equal values; only a: {}, only b: {}",
+        counts.matched, counts.equal, counts.unmatched_a, counts.unmatched_b
+    ))?;
+    let kinds = &found.disagreements;
+    output.line(format!(
+        "disagreements in the alignment: only a {}, only b {}, other value {}, start or end {}",
+        kinds.only_a, kinds.only_b, kinds.value, kinds.boundary
+    ))?;
+    if let (Some(onset), Some(offset)) = (&found.onset_s, &found.offset_s) {
+        output.line(format!(
+            "start of b less a: {}; end: {} (median and quartiles, in ms)",
+            quartiles(onset),
+            quartiles(offset)
+        ))?;
+    }
+    if found.counts_only {
+        output.line(
+            "too few units or values for figures; with --json they are computed all the same",
+        )?;
+        return Ok(());
+    }
+    let shown = found.measures.iter().filter(|(name, _)| args.prints(name));
+    let rows: Vec<Vec<String>> = shown
+        .map(|(name, figure)| {
+            vec![
+                (*name).to_owned(),
+                value(figure, output),
+                interval(figure),
+                drawn(figure, output),
+            ]
+        })
+        .collect();
+    output.table(&["measure", "value", "95 %", "draws"], &rows)?;
+    let rows = found.by_value.iter().take(MOST_ROWS);
+    let rows: Vec<Vec<String>> = rows
+        .map(|it| {
+            vec![
+                it.value.clone(),
+                it.a.to_string(),
+                it.b.to_string(),
+                it.both.to_string(),
+                it.other.to_string(),
+                it.alone.to_string(),
+                value(&it.kappa, output),
+                value(&it.alpha_u, output),
+            ]
+        })
+        .collect();
+    if !rows.is_empty() {
+        let titles = [
+            "value",
+            "a",
+            "b",
+            "both",
+            "other value",
+            "alone",
+            "kappa",
+            "alpha_u",
+        ];
+        output.table(&titles, &rows)?;
+    }
+    if found.by_value.len() > MOST_ROWS {
+        let more = found.by_value.len() - MOST_ROWS;
+        output.line(format!("values that are not shown: {more}; --json has all"))?;
+    }
+    if found.pairs.len() > 1 {
+        let rows: Vec<Vec<String>> = found.pairs.iter().map(|it| pair(it, output)).collect();
+        let titles = [
+            "recording",
+            "tier a",
+            "tier b",
+            "a",
+            "b",
+            "matched",
+            "equal",
+            "kappa_ipf",
+            "alpha_u",
+        ];
+        output.table(&titles, &rows)?;
+    }
+    Ok(())
+}
+
+fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
+    let figure = |name: &str| {
+        let found = it.measures.iter().find(|(own, _)| *own == name);
+        found
+            .filter(|_| !it.counts.are_few())
+            .map(|(_, figure)| value(figure, output))
+            .unwrap_or_default()
+    };
+    vec![
+        it.recording.clone(),
+        it.tier_a.clone(),
+        it.tier_b.clone(),
+        it.counts.units_a.to_string(),
+        it.counts.units_b.to_string(),
+        it.counts.matched.to_string(),
+        it.counts.equal.to_string(),
+        figure("kappa_ipf"),
+        figure("alpha_u"),
+    ]
+}
+
+/// Returns the value of a measure, or the reason why it has none.
+fn value(figure: &Figure, output: &Output) -> String {
+    match (figure.value, &figure.why) {
+        (Some(value), _) => format!("{value:.3}"),
+        (None, Some(why)) => format!("- ({})", output.spoken(why)),
+        (None, None) => String::new(),
+    }
+}
+
+fn interval(figure: &Figure) -> String {
+    let shown = figure
+        .interval
+        .map(|it| format!("{:.3} … {:.3}", it.low, it.high));
+    shown.unwrap_or_default()
+}
+
+/// Returns how many draws an interval comes from, and what was drawn.
+fn drawn(figure: &Figure, output: &Output) -> String {
+    let shown = figure.interval.map(|it| {
+        let of = chereme_corpus::words::numbered(2, it.of, output.language());
+        format!("{} × {of}", it.draws)
+    });
+    shown.unwrap_or_default()
+}
+
+fn quartiles(it: &Quartiles) -> String {
+    let [q1, median, q3] = [it.q1, it.median, it.q3].map(|it| format!("{:+.0}", it * 1000.0));
+    format!("{median} ({q1} … {q3})")
+}
+
+fn confusion(found: &Agreement, output: &mut Output) -> Result<()> {
+    let rows: Vec<Vec<String>> = found
+        .confusion
+        .iter()
+        .map(|it| {
+            vec![
+                it.count.to_string(),
+                it.a.clone(),
+                it.b.clone(),
+                it.only_a.join(" "),
+                it.only_b.join(" "),
+            ]
+        })
+        .collect();
+    output.table(
+        &[
+            "times",
+            "a",
+            "b",
+            "features of a alone",
+            "features of b alone",
+        ],
+        &rows,
+    )
+}
+
+fn list(found: &[Disagreement], output: &mut Output) -> Result<()> {
+    let side =
+        |it: &Option<DisagreementSide>| it.as_ref().map(|it| it.value.clone()).unwrap_or_default();
+    let rows: Vec<Vec<String>> = found
+        .iter()
+        .map(|it| {
+            let apart = |of: fn(&DisagreementSide) -> i64| match (&it.a, &it.b) {
+                (Some(a), Some(b)) => format!("{:+.0}", (of(b) - of(a)) as f64 / 1000.0),
+                _ => String::new(),
+            };
+            let seconds = |micros: i64| format!("{:.3}", micros as f64 / 1e6);
+            vec![
+                it.recording.clone(),
+                seconds(it.start_us),
+                seconds(it.end_us),
+                it.kind.name().to_owned(),
+                side(&it.a),
+                side(&it.b),
+                apart(|it| it.start_us),
+                apart(|it| it.end_us),
+                format!("{:.2}", it.cost),
+            ]
+        })
+        .collect();
+    let titles = [
+        "recording",
+        "from (s)",
+        "to (s)",
+        "kind",
+        "a",
+        "b",
+        "start (ms)",
+        "end (ms)",
+        "cost",
+    ];
+    output.table(&titles, &rows)
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_corpus::MEASURES;
+
+    use super::*;
+
+    #[test]
+    fn the_help_names_every_measure() {
+        let mut command = <crate::args::Cli as clap::CommandFactory>::command();
+        let agree = command.find_subcommand_mut("agree").expect("the command");
+        let help = agree.render_long_help().to_string();
+        for measure in MEASURES {
+            assert!(help.contains(measure), "{measure}");
+        }
+        assert!(USUAL.iter().all(|it| MEASURES.contains(it)));
+    }
+}

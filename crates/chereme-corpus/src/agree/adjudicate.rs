@@ -1,0 +1,256 @@
+//! The adjudication of two tiers on a third one: agreements are written, disagreements wait for a decision.
+
+use std::collections::BTreeMap;
+
+use chereme_analysis::agreement::gamma::Costs;
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+use serde::Serialize;
+
+use super::disagreements::{Distances, groups};
+use super::figures::sides;
+use super::{AgreeOptions, tiers};
+use crate::Corpus;
+use crate::address::Name;
+use crate::annotate::{
+    AnnotateOptions, AnnotationAction, AnnotationChange, NewTier, TierName, Values, write_tiers,
+};
+use crate::db::edits;
+use crate::db::tiers::{self as rows, AnnotationRow};
+use crate::error::{Error, Result};
+use crate::merge::keep_annotation;
+use crate::progress::Progress;
+
+/// The result of an adjudication.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
+pub struct Adjudicated {
+    /// The name of the third tier.
+    pub tier: String,
+    /// The recordings that got it.
+    pub recordings: Vec<String>,
+    /// The annotations on which both agree.
+    pub agreed: u64,
+    /// The disagreements that wait for a decision, as conflicts of a merge do.
+    pub conflicts: u64,
+}
+
+/// One recording of an adjudication: the tier, its annotations, and the candidates.
+struct Third {
+    recording: i64,
+    name: String,
+    tier: NewTier,
+    changes: Vec<AnnotationChange>,
+    /// The place of a conflict: the start of the annotation of the first in the third tier, and that of the second.
+    open: Vec<(Option<i64>, Option<AnnotationRow>)>,
+    from: String,
+}
+
+impl Corpus {
+    /// Writes a third tier below the others of each recording: aligned units with equal values whose starts and ends lie
+    /// within the tolerance, with the span of the first annotator; and the first annotator's version of each
+    /// disagreement, which stays until [`decide`](Self::decide) is called. Each disagreement is a conflict:
+    /// `mine` is the first annotator's version, `theirs` the second's, whose boundaries are the first's where they lie within
+    /// the tolerance. All of it is one operation.
+    ///
+    /// # Errors
+    /// Those of [`agree`](Self::agree); fails if a recording has a tier of that name already.
+    pub fn adjudicate(
+        &mut self,
+        options: &AgreeOptions,
+        into: &str,
+        progress: &mut Progress<'_>,
+    ) -> Result<Adjudicated> {
+        options.check()?;
+        let into = into.trim();
+        let (all, mut report) = self.third_tiers(options, into)?;
+        self.store
+            .operation_with_progress("adjudicate", progress, |connection, progress| {
+                edits::defer_references(connection)?;
+                for third in &all {
+                    let written = AnnotateOptions::default();
+                    let work = (third.changes.as_slice(), &written);
+                    write_tiers(
+                        connection,
+                        std::slice::from_ref(&third.tier),
+                        work,
+                        progress,
+                    )?;
+                    let tiers = rows::tiers(connection, third.recording)?;
+                    let Some(tier) = tiers.iter().find(|it| it.name == third.tier.name) else {
+                        continue;
+                    };
+                    let placed = rows::annotations(connection, tier.id)?;
+                    let placed: BTreeMap<i64, i64> =
+                        placed.iter().map(|it| (it.start_us, it.id)).collect();
+                    for (mine, theirs) in &third.open {
+                        let mine = mine.and_then(|start| placed.get(&start).copied());
+                        let theirs = theirs.as_ref().map(|row| AnnotationRow {
+                            tier_id: tier.id,
+                            ..row.clone()
+                        });
+                        keep_annotation(connection, &third.from, mine, theirs.as_ref())?;
+                    }
+                }
+                report.recordings = all.iter().map(|it| it.name.clone()).collect();
+                Ok((report, into.to_owned()))
+            })
+    }
+
+    /// Returns the third tier of each recording, with the counts over all.
+    fn third_tiers(&self, options: &AgreeOptions, into: &str) -> Result<(Vec<Third>, Adjudicated)> {
+        let coded = tiers::read(self, options)?;
+        let inventories = self.inventories_now()?;
+        let distances = Distances::of(&coded);
+        let distance = |a: usize, b: usize| distances.between(a, b);
+        let costs = Costs {
+            distance: Some(&distance),
+            ..Costs::default()
+        };
+        let mut report = Adjudicated {
+            tier: into.to_owned(),
+            ..Adjudicated::default()
+        };
+        let mut all: Vec<Third> = Vec::new();
+        for pair in &coded.pairs {
+            if pair.a.recording_id != pair.b.recording_id {
+                return Err(Error::wrong("the two tiers belong to different recordings")
+                    .at(format!("tier:{}", pair.b.id))
+                    .advise("copy one of them to the recording of the other, then adjudicate"));
+            }
+            if all.iter().any(|it| it.recording == pair.recording.id) {
+                return Err(Error::wrong(format!(
+                    "several pairs of tiers of {:?} would go onto the tier {into:?}",
+                    pair.recording.name
+                ))
+                .at(pair.recording.name.as_str())
+                .advise("name one pair of tiers"));
+            }
+            let recording = Name::Number(pair.recording.id);
+            let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());
+            tier.hand = pair.a.hand;
+            tier.values = Values::Free;
+            let stored = inventories
+                .iter()
+                .find(|it| Some(it.id) == pair.a.inventory_id);
+            let has = |row: &AnnotationRow| {
+                !row.is_filled() || stored.is_some_and(|it| it.inventory.find(&row.value).is_some())
+            };
+            if let Some(stored) = stored.filter(|_| pair.annotations.iter().flatten().all(has)) {
+                tier.values = Values::Inventory(stored.inventory.id.clone());
+            }
+            tier.participant.clone_from(&pair.a.participant);
+            tier.language.clone_from(&pair.a.language);
+            let mut third = Third {
+                recording: pair.recording.id,
+                name: pair.recording.name.clone(),
+                tier,
+                changes: Vec::new(),
+                open: Vec::new(),
+                from: pair.b.name.clone(),
+            };
+            let name = TierName::Of {
+                recording,
+                tier: into.to_owned(),
+            };
+            let (first, second) = sides(&pair.continuum);
+            for group in groups(pair, &costs) {
+                let [a, b] = [
+                    group.first().copied().flatten(),
+                    group.get(1).copied().flatten(),
+                ];
+                let mine = a.map(|at| &pair.annotations[0][at]);
+                let theirs = b.map(|at| &pair.annotations[1][at]);
+                if let Some(row) = mine {
+                    third.changes.push(added(name.clone(), row));
+                }
+                let moved = match (mine, theirs) {
+                    (Some(mine), Some(theirs)) => apart(mine, theirs) > options.tolerance_us,
+                    _ => true,
+                };
+                let is_equal = match (a, b) {
+                    (Some(a), Some(b)) => first[a].value == second[b].value,
+                    _ => false,
+                };
+                if is_equal && !moved {
+                    report.agreed += 1;
+                    continue;
+                }
+                report.conflicts += 1;
+                let span = |row: &AnnotationRow| match mine {
+                    Some(mine) if !moved => (mine.start_us, mine.end_us),
+                    _ => clipped(row, &pair.annotations[0], a, options.tolerance_us),
+                };
+                let theirs = theirs.map(|row| candidate(row, span(row)));
+                third.open.push((mine.map(|it| it.start_us), theirs));
+            }
+            all.push(third);
+        }
+        Ok((all, report))
+    }
+}
+
+/// Returns how far the starts or the ends of two annotations lie apart, in microseconds.
+fn apart(a: &AnnotationRow, b: &AnnotationRow) -> i64 {
+    (a.start_us - b.start_us)
+        .abs()
+        .max((a.end_us - b.end_us).abs())
+}
+
+/// Returns the span of the second annotator's annotation, clipped where it reaches into an annotation of the first by no
+/// more than the tolerance: their boundary counts as the same one. Its own counterpart does not clip it.
+fn clipped(
+    row: &AnnotationRow,
+    first: &[AnnotationRow],
+    counterpart: Option<usize>,
+    tolerance: i64,
+) -> (i64, i64) {
+    let (mut start, mut end) = (row.start_us, row.end_us);
+    let from = first.partition_point(|it| it.end_us <= row.start_us);
+    for (at, other) in first.iter().enumerate().skip(from) {
+        if other.start_us >= row.end_us {
+            break;
+        }
+        let shared = other.end_us.min(row.end_us) - other.start_us.max(row.start_us);
+        if Some(at) == counterpart || shared > tolerance {
+            continue;
+        }
+        match other.start_us <= row.start_us {
+            true => start = start.max(other.end_us),
+            false => end = end.min(other.start_us),
+        }
+    }
+    if start < end {
+        (start, end)
+    } else {
+        (row.start_us, row.end_us)
+    }
+}
+
+/// Returns the second annotator's version of a disagreement, without its ties to its own tier.
+fn candidate(row: &AnnotationRow, (start_us, end_us): (i64, i64)) -> AnnotationRow {
+    AnnotationRow {
+        start_us,
+        end_us,
+        external_id: None,
+        file_start_ms: None,
+        file_end_ms: None,
+        parent_id: None,
+        source: None,
+        position: 0,
+        ..row.clone()
+    }
+}
+
+fn added(tier: TierName, row: &AnnotationRow) -> AnnotationChange {
+    let time = |micros| Some(Moment::Time(Instant::from_micros(micros)));
+    AnnotationAction::Add {
+        tier,
+        start: time(row.start_us),
+        end: time(row.end_us),
+        parent: None,
+        order: None,
+        value: row.file_text().to_owned(),
+        confidence: None,
+    }
+    .into()
+}

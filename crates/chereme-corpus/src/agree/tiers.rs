@@ -1,0 +1,480 @@
+//! The pairs of tiers that two annotators made, and their units.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_analysis::agreement::{Continuum, Unit};
+use chereme_sign::text::{fold, nearest};
+use chereme_sign::{Component, Inventory, Reading, Remedy, TierRole};
+use rusqlite::Connection;
+
+use super::AgreeOptions;
+use crate::Corpus;
+use crate::address::{self, Address};
+use crate::db::recordings::{self, RecordingRow};
+use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
+use crate::error::{Error, Result};
+
+/// Two tiers with what their annotators made.
+pub(super) struct TierPair {
+    /// The recording of the first tier, to which the list of disagreements leads.
+    pub(super) recording: RecordingRow,
+    pub(super) a: TierRow,
+    pub(super) b: TierRow,
+    /// The units in milliseconds.
+    pub(super) continuum: Continuum,
+    /// The annotation of each unit.
+    pub(super) annotations: [Vec<AnnotationRow>; 2],
+    pub(super) left_out: [u64; 2],
+}
+
+/// All pairs of tiers, with the values that occur.
+pub(super) struct Coded {
+    pub(super) pairs: Vec<TierPair>,
+    pub(super) values: Vec<String>,
+    /// The features of each value, from the inventory of its tier.
+    pub(super) features: Vec<BTreeSet<String>>,
+    /// Whether the values are handshapes with features.
+    pub(super) are_handshapes: bool,
+    /// Whether no annotation has a value.
+    pub(super) spans_only: bool,
+    pub(super) findings: Vec<String>,
+}
+
+/// Returns the pairs of tiers that the options name, with their units.
+pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
+    let connection = corpus.store.read();
+    let mut findings = Vec::new();
+    let found = named(connection, options, &mut findings)?;
+    let inventories = corpus.inventories_now()?;
+    let inventory = |tier: &TierRow| {
+        let stored = inventories
+            .iter()
+            .find(|it| Some(it.id) == tier.inventory_id);
+        stored.map(|it| &it.inventory)
+    };
+    let mut all: Vec<(RecordingRow, [TierRow; 2], [Vec<AnnotationRow>; 2])> = Vec::new();
+    for (recording, a, b) in found {
+        let of_a = rows::annotations(connection, a.id)?;
+        let of_b = rows::annotations(connection, b.id)?;
+        all.push((recording, [a, b], [of_a, of_b]));
+    }
+    let annotations = all.iter().flat_map(|it| it.2.iter().flatten());
+    let spans_only = !annotations.clone().any(|it| value(it, None).is_some());
+    let mut values = Values::default();
+    let (mut read, mut handshapes) = (Vec::new(), true);
+    for (recording, [a, b], both) in all {
+        let both_handshapes = is_handshape(&a) && is_handshape(&b);
+        // A vocabulary of a file has no features; inventories of handshapes have them for the same names.
+        let usual: Vec<&Inventory> = match both_handshapes {
+            true => inventories
+                .iter()
+                .map(|it| &it.inventory)
+                .filter(|it| is_of_handshapes(it))
+                .collect(),
+            false => Vec::new(),
+        };
+        let shared = inventory(&a).filter(|_| a.inventory_id == b.inventory_id);
+        handshapes &= both_handshapes;
+        let mut tiers = Vec::new();
+        let (mut kept, mut left_out) = ([Vec::new(), Vec::new()], [0, 0]);
+        for (side, annotations) in both.into_iter().enumerate() {
+            let value = |annotation: &AnnotationRow| match spans_only {
+                true => Some(String::new()),
+                false => value(annotation, shared),
+            };
+            let known = || shared.into_iter().chain(usual.iter().copied());
+            let (units, rows, without) = units(annotations, value, |it| values.number(it, known));
+            left_out[side] = without;
+            tiers.push(units);
+            kept[side] = rows;
+        }
+        let extent = extent(&recording, &tiers, options);
+        read.push((recording, [a, b], kept, left_out, extent, tiers));
+    }
+    let sorted = values.sorted();
+    let pairs = read.into_iter().map(
+        |(recording, [a, b], annotations, left_out, extent, mut tiers)| {
+            for unit in tiers.iter_mut().flatten() {
+                unit.value = sorted[unit.value];
+            }
+            TierPair {
+                continuum: Continuum::new(extent, tiers),
+                recording,
+                a,
+                b,
+                annotations,
+                left_out,
+            }
+        },
+    );
+    let pairs: Vec<TierPair> = pairs.collect();
+    if spans_only && pairs.iter().any(|it| it.continuum.units() > 0) {
+        findings.push("no annotation has a value, so only spans are compared".to_owned());
+    }
+    let are_handshapes =
+        handshapes && !spans_only && values.features.iter().any(|it| !it.is_empty());
+    Ok(Coded {
+        pairs,
+        values: values.names,
+        features: values.features,
+        are_handshapes,
+        spans_only,
+        findings,
+    })
+}
+
+/// Returns the annotations with values as units in order of time, and how many have no value.
+fn units(
+    annotations: Vec<AnnotationRow>,
+    value: impl Fn(&AnnotationRow) -> Option<String>,
+    mut number: impl FnMut(String) -> usize,
+) -> (Vec<Unit>, Vec<AnnotationRow>, u64) {
+    let (mut all, mut left_out): (Vec<(Unit, AnnotationRow)>, u64) = (Vec::new(), 0);
+    for row in annotations {
+        let Some(value) = value(&row) else {
+            left_out += 1;
+            continue;
+        };
+        let (start, end) = (milliseconds(row.start_us), milliseconds(row.end_us));
+        all.push((Unit::new(start, end.max(start + 1), number(value)), row));
+    }
+    all.sort_by_key(|(unit, row)| (*unit, row.id));
+    let (units, rows) = all.into_iter().unzip();
+    (units, rows, left_out)
+}
+
+/// Returns the time that counts as annotated, in milliseconds.
+fn extent(recording: &RecordingRow, tiers: &[Vec<Unit>], options: &AgreeOptions) -> (i64, i64) {
+    if options.whole {
+        return (0, milliseconds(recording.duration_us));
+    }
+    let all = || tiers.iter().flatten();
+    let start = all().map(|it| it.start).min().unwrap_or(0);
+    (start, all().map(|it| it.end).max().unwrap_or(start))
+}
+
+/// Returns whether a tier holds handshapes.
+fn is_handshape(tier: &TierRow) -> bool {
+    matches!(
+        &tier.role,
+        TierRole::Component {
+            component: Component::Configuration,
+            feature: None
+        }
+    )
+}
+
+fn is_of_handshapes(inventory: &Inventory) -> bool {
+    inventory.component == Component::Configuration && inventory.feature.is_none()
+}
+
+fn milliseconds(micros: i64) -> i64 {
+    micros.saturating_add(500).div_euclid(1000)
+}
+
+/// Returns the value of an annotation as an inventory spells it, `n/a` or `unclear`; `None` for an annotation without
+/// a value.
+fn value(annotation: &AnnotationRow, inventory: Option<&Inventory>) -> Option<String> {
+    match annotation.reading() {
+        Reading::Value(text) => {
+            let text = text.trim();
+            let known = inventory.and_then(|it| it.find(text));
+            let name = known.map_or(text, |it| it.id.as_str());
+            (!name.is_empty()).then(|| name.to_owned())
+        }
+        Reading::NotApplicable => Some("n/a".to_owned()),
+        Reading::Unclear => Some("unclear".to_owned()),
+        Reading::Unset => None,
+    }
+}
+
+/// The numbers of values.
+#[derive(Default)]
+struct Values {
+    numbers: BTreeMap<String, usize>,
+    names: Vec<String>,
+    features: Vec<BTreeSet<String>>,
+}
+
+impl Values {
+    /// Returns the number of a value; a new one has the features that the first of the inventories `known` gives it.
+    fn number<'a, K: Iterator<Item = &'a Inventory>>(
+        &mut self,
+        value: String,
+        known: impl Fn() -> K,
+    ) -> usize {
+        if let Some(number) = self.numbers.get(&value) {
+            return *number;
+        }
+        let features = known()
+            .filter_map(|it| it.find(&value))
+            .map(|it| &it.features);
+        let features = features.into_iter().find(|it| !it.is_empty());
+        let number = self.names.len();
+        self.features.push(features.cloned().unwrap_or_default());
+        self.names.push(value.clone());
+        self.numbers.insert(value, number);
+        number
+    }
+
+    /// Puts the values in alphabetical order, so that their numbers do not depend on who comes first; returns the new number
+    /// of each old one.
+    fn sorted(&mut self) -> Vec<usize> {
+        let mut order: Vec<usize> = (0..self.names.len()).collect();
+        order.sort_by(|a, b| self.names[*a].cmp(&self.names[*b]));
+        let mut numbers = vec![0; order.len()];
+        for (new, old) in order.iter().enumerate() {
+            numbers[*old] = new;
+        }
+        self.names = order.iter().map(|old| self.names[*old].clone()).collect();
+        self.features = order
+            .iter()
+            .map(|old| self.features[*old].clone())
+            .collect();
+        numbers
+    }
+}
+
+/// The forms in which tiers of one annotator are named.
+enum Wanted {
+    Tier(i64),
+    Annotator(String),
+    /// A name, or a name with one `*`.
+    Name(String),
+}
+
+impl Wanted {
+    fn read(text: &str) -> Self {
+        let text = text.trim();
+        if let Ok(Address::Tier(number)) = text.parse() {
+            return Self::Tier(number);
+        }
+        match text.split_once(':') {
+            Some((kind, name)) if fold(kind) == "annotator" => {
+                Self::Annotator(name.trim().trim_matches('"').to_owned())
+            }
+            _ => Self::Name(text.to_owned()),
+        }
+    }
+}
+
+type Found = (RecordingRow, TierRow, TierRow);
+
+/// Returns the pairs of tiers that the options name.
+fn named(
+    connection: &Connection,
+    options: &AgreeOptions,
+    findings: &mut Vec<String>,
+) -> Result<Vec<Found>> {
+    let (a, b) = (Wanted::read(&options.a), Wanted::read(&options.b));
+    if let (Wanted::Tier(a), Wanted::Tier(b)) = (&a, &b) {
+        let (a, b) = (rows::tier(connection, *a)?, rows::tier(connection, *b)?);
+        let recording = recordings::recording(connection, a.recording_id)?;
+        return apart(vec![(recording, a, b)], options);
+    }
+    let scope = match &options.recording {
+        Some(name) => vec![address::recording(connection, name)?],
+        None => recordings::recordings(connection)?,
+    };
+    let (mut found, mut names, mut annotators) = (Vec::new(), BTreeSet::new(), BTreeSet::new());
+    for recording in scope {
+        let tiers = rows::tiers(connection, recording.id)?;
+        names.extend(tiers.iter().map(|it| it.name.clone()));
+        annotators.extend(tiers.iter().filter_map(|it| it.annotator.clone()));
+        let pairs = match (&a, &b) {
+            (Wanted::Annotator(a), Wanted::Annotator(b)) => {
+                by_annotator(&recording.name, &tiers, (a, b), findings)
+            }
+            (Wanted::Name(a), Wanted::Name(b)) if a.contains('*') && b.contains('*') => {
+                by_pattern(&tiers, a, b)
+            }
+            _ => {
+                let one = |wanted: &Wanted| match wanted {
+                    Wanted::Tier(id) => tiers.iter().find(|it| it.id == *id),
+                    Wanted::Name(name) => by_name(&tiers, name),
+                    Wanted::Annotator(name) => {
+                        let mut own = tiers.iter().filter(|it| is_by(it, name));
+                        own.next().filter(|_| own.next().is_none())
+                    }
+                };
+                one(&a).zip(one(&b)).into_iter().collect()
+            }
+        };
+        for (a, b) in pairs {
+            found.push((recording.clone(), a.clone(), b.clone()));
+        }
+    }
+    if found.is_empty() {
+        for wanted in [&a, &b] {
+            if let Wanted::Annotator(name) = wanted {
+                known_annotator(name, &annotators)?;
+            }
+        }
+        return Err(no_pair(options, &names));
+    }
+    apart(found, options)
+}
+
+/// Refuses a tier that would be compared with itself.
+fn apart(found: Vec<Found>, options: &AgreeOptions) -> Result<Vec<Found>> {
+    match found.iter().find(|(_, a, b)| a.id == b.id) {
+        Some((recording, a, _)) => Err(Error::wrong(format!(
+            "the tier {:?} of {:?} would be compared with itself",
+            a.name, recording.name
+        ))
+        .at(options.b.as_str())
+        .advise("name the tier of the other annotator")),
+        None => Ok(found),
+    }
+}
+
+/// Refuses an annotator of no tier.
+fn known_annotator(name: &str, annotators: &BTreeSet<String>) -> Result<()> {
+    if annotators.iter().any(|it| fold(it.trim()) == fold(name)) {
+        return Ok(());
+    }
+    let meant =
+        chereme_sign::text::did_you_mean(nearest(name, annotators.iter().map(String::as_str)));
+    Err(
+        Error::wrong(format!("no tier has the annotator {name:?}{meant}"))
+            .at(name)
+            .advise(Remedy::command(
+                "`chereme list CORPUS tiers` shows the annotator of each tier",
+            )),
+    )
+}
+
+fn no_pair(options: &AgreeOptions, names: &BTreeSet<String>) -> Error {
+    let missing = [&options.a, &options.b].into_iter().find(|wanted| {
+        matches!(Wanted::read(wanted), Wanted::Name(name)
+            if !name.contains('*') && !names.iter().any(|it| fold(it) == fold(&name)))
+    });
+    let place = missing.unwrap_or(&options.a);
+    let near = nearest(place, names.iter().map(String::as_str)).filter(|_| missing.is_some());
+    let meant = chereme_sign::text::did_you_mean(near);
+    Error::wrong(format!(
+        "no recording has both {:?} and {:?}{meant}",
+        options.a, options.b
+    ))
+    .at(place.as_str())
+    .advise(Remedy::command(
+        "`chereme list CORPUS tiers` lists all tiers; write their names, \"*-A\" and \"*-B\", annotator:NAME, or tier:12",
+    ))
+}
+
+/// Returns the tier of that name, or the only one that differs from it in case and accents alone.
+fn by_name<'a>(tiers: &'a [TierRow], name: &str) -> Option<&'a TierRow> {
+    tiers.iter().find(|it| it.name == name).or_else(|| {
+        let folded = fold(name);
+        let mut alike = tiers.iter().filter(|it| fold(&it.name) == folded);
+        alike.next().filter(|_| alike.next().is_none())
+    })
+}
+
+/// Returns the pairs of tiers whose names have the same text at the star of the two patterns.
+fn by_pattern<'a>(tiers: &'a [TierRow], a: &str, b: &str) -> Vec<(&'a TierRow, &'a TierRow)> {
+    let ((before, after), (first, last)) = (split(a), split(b));
+    let pairs = tiers.iter().filter_map(|tier| {
+        let rest = tier.name.strip_prefix(before)?;
+        let shared = rest.strip_suffix(after)?;
+        let other = format!("{first}{shared}{last}");
+        let other = tiers.iter().find(|it| it.name == other)?;
+        Some((tier, other))
+    });
+    pairs.filter(|(a, b)| a.id != b.id).collect()
+}
+
+fn split(pattern: &str) -> (&str, &str) {
+    pattern.split_once('*').unwrap_or((pattern, ""))
+}
+
+fn is_by(tier: &TierRow, annotator: &str) -> bool {
+    let own = tier.annotator.as_deref().unwrap_or_default().trim();
+    !own.is_empty() && fold(own) == fold(annotator)
+}
+
+/// Returns the pairs of tiers of two annotators that describe the same: the same role and hand, and the same
+/// participant. Of several tiers of one kind the names decide: those that only differ in the annotator's name belong
+/// together.
+fn by_annotator<'a>(
+    recording: &str,
+    tiers: &'a [TierRow],
+    (a, b): (&str, &str),
+    findings: &mut Vec<String>,
+) -> Vec<(&'a TierRow, &'a TierRow)> {
+    let kind = |it: &TierRow| (it.topic(), it.participant.clone());
+    let stem = |it: &TierRow, annotator: &str| fold(&it.name).replace(&fold(annotator), "");
+    let mut pairs = Vec::new();
+    for tier in tiers.iter().filter(|it| is_by(it, a)) {
+        let others = tiers
+            .iter()
+            .filter(|it| is_by(it, b) && kind(it) == kind(tier));
+        let others: Vec<&TierRow> = others.collect();
+        let own = tiers
+            .iter()
+            .filter(|it| is_by(it, a) && kind(it) == kind(tier))
+            .count();
+        let same = others.iter().find(|it| stem(it, b) == stem(tier, a));
+        match (&others[..], same) {
+            ([one], _) if own == 1 => pairs.push((tier, *one)),
+            (_, Some(same)) => pairs.push((tier, *same)),
+            ([], _) => {}
+            _ => findings.push(format!(
+                "several tiers of {:?} could belong to {:?}: name both by name or number",
+                recording, tier.name
+            )),
+        }
+    }
+    pairs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tier(id: i64, name: &str, annotator: &str) -> TierRow {
+        TierRow {
+            id,
+            name: name.to_owned(),
+            annotator: Some(annotator.to_owned()),
+            ..TierRow::default()
+        }
+    }
+
+    #[test]
+    fn tiers_are_paired_by_the_star_of_patterns() {
+        let tiers = [
+            tier(1, "Gloss-A", ""),
+            tier(2, "Gloss-B", ""),
+            tier(3, "Mouth-A", ""),
+            tier(4, "B", ""),
+        ];
+        let ids = |a, b| -> Vec<(i64, i64)> {
+            let pairs = by_pattern(&tiers, a, b);
+            pairs.iter().map(|(a, b)| (a.id, b.id)).collect()
+        };
+        assert_eq!(ids("*-A", "*-B"), [(1, 2)]);
+        assert_eq!(ids("*-B", "*-A"), [(2, 1)]);
+        assert_eq!(ids("Gloss*", "Gloss*"), []);
+        assert_eq!(ids("*Gloss-A", "*B"), [(1, 4)]);
+    }
+
+    #[test]
+    fn tiers_of_annotators_are_paired_by_subject_and_then_by_name() {
+        let pairs = |tiers: &[TierRow]| {
+            let mut findings = Vec::new();
+            let pairs = by_annotator("R", tiers, ("Anna", "ben"), &mut findings);
+            let ids: Vec<(i64, i64)> = pairs.iter().map(|(a, b)| (a.id, b.id)).collect();
+            (ids, findings.len())
+        };
+        let one = [tier(1, "x", "anna"), tier(2, "y", "Ben")];
+        assert_eq!(pairs(&one), (vec![(1, 2)], 0));
+        let several = [
+            tier(1, "Mouth Anna", "Anna"),
+            tier(2, "Brows Anna", "Anna"),
+            tier(3, "Brows Ben", "Ben"),
+            tier(4, "Other", "Ben"),
+        ];
+        assert_eq!(pairs(&several), (vec![(2, 3)], 1));
+    }
+}
