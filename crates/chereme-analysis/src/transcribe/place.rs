@@ -20,7 +20,7 @@ use super::scene::{Axes, Scene};
 use crate::transcribe::tuned::tuned;
 use choice::{Choice, Spot, contacts, middle};
 use hand::{Hand, named_all};
-use spread::Spread;
+use spread::{Free, Spread};
 
 pub(super) use hand::named;
 pub(super) use together::Together;
@@ -309,7 +309,13 @@ impl<'a> Body<'a> {
                 let unlikely = if touching {
                     self.spread.touching(off, spot.out, trunk)
                 } else {
-                    self.spread.free(off, contact == Some(Contact::ArmExtended))
+                    let of = match (hand.between, trunk) {
+                        (true, _) => Free::Between,
+                        (_, true) => Free::Trunk,
+                        (_, false) => Free::Head,
+                    };
+                    self.spread
+                        .free(off, of, contact == Some(Contact::ArmExtended))
                 };
                 all.push(Candidate {
                     choice,

@@ -66,7 +66,8 @@ tuned_numbers! {
     choice: ChoiceNumbers {
         between: f64,
         oblique: f64,
-        rare: f64,
+        usual: [f64; 24],
+        neutral: f64,
         top: f64,
         top_alone: [f64; 2],
         across: f64,
@@ -83,13 +84,16 @@ tuned_numbers! {
     /// Numbers for the distribution of hands about their places.
     spread: SpreadNumbers {
         shares: [f64; 3],
-        of_trunk: [f64; 3],
+        free: [[f64; 3]; 3],
+        room: [[f64; 5]; 3],
+        anywhere: [f64; 3],
         short: f64,
         exact: f64,
-        anywhere: [f64; 2],
+        touching: [[f64; 3]; 2],
+        astray: [f64; 3],
+        missed: [f64; 3],
         pushed: f64,
         slides: f64,
-        missed: f64,
     }
     /// Numbers for the parts of a hand.
     part: PartNumbers {

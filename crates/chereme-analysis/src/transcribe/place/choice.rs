@@ -205,7 +205,8 @@ fn is_rare(spot: &Spot) -> bool {
 /// Builds the candidate for a place, or for the point half-way to a second one.
 fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     let both = || [Some(first), second].into_iter().flatten();
-    let sum = |cost: fn(&Spot) -> f64| both().map(cost).fold(0.0, f64::max);
+    let dearer = both().map(aside).fold(0.0, f64::max);
+    let mean = both().map(usual).sum::<f64>() / both().count() as f64;
     let wide = second.map_or(0.0, |second| {
         first.at.distance(second.at) / tuned().choice.apart
     });
@@ -213,7 +214,8 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     Choice {
         spot: second.map_or(*first, |second| middle(first, second)),
         second: second.map(|second| second.site),
-        cost: sum(penalty)
+        cost: dearer
+            + mean
             + second.map_or(0.0, |second| {
                 let level = second.site.at != first.site.at;
                 let side = second.site.side != first.site.side;
@@ -233,19 +235,21 @@ fn choice(first: &Spot, second: Option<&Spot>) -> Choice {
     }
 }
 
-/// Returns the penalty (nepers) of a single place.
-fn penalty(spot: &Spot) -> f64 {
-    let side = match spot.site.side {
+/// Returns the penalty (nepers) of the side of a place.
+fn aside(spot: &Spot) -> f64 {
+    match spot.site.side {
         Some(Side::LeftAt) => tuned().choice.across,
         Some(Side::RightBeside) => tuned().choice.beside,
         Some(Side::LeftBeside) => tuned().choice.across + tuned().choice.beside,
         _ => 0.0,
-    };
-    side + if is_rare(spot) {
-        tuned().choice.rare
-    } else {
-        0.0
     }
+}
+
+/// Returns the penalty (nepers) of a place by how often annotators write it.
+fn usual(spot: &Spot) -> f64 {
+    let known = PLACES.iter().zip(tuned().choice.usual);
+    let mut known = known.filter(|(at, _)| **at == spot.site.at);
+    known.next().map_or(0.0, |(_, penalty)| penalty)
 }
 
 /// Returns the distances at which a hand may be before a place.
@@ -337,9 +341,9 @@ mod tests {
         let found = candidates(&[(Chest, step), (Stomach, 0.0), (EarLobe, 9.0 * step)]);
         let single: Vec<_> = found.iter().filter(|it| it.second.is_none()).collect();
         assert_eq!(single.len(), 3);
-        for choice in single {
+        for choice in &single {
             let rare = choice.spot.site.at == EarLobe;
-            assert_eq!(choice.cost, if rare { tuned().choice.rare } else { 0.0 });
+            assert_eq!(choice.cost, usual(&choice.spot));
             assert_eq!(choice.near, rare);
         }
         let joined: Vec<_> = found.iter().filter(|it| it.second.is_some()).collect();
@@ -349,7 +353,8 @@ mod tests {
             "places that are too far apart have no middle"
         );
         assert!(joined[0].spot.at.distance(DVec3::Y * step / 2.0) < 1e-12);
-        let cost = tuned().choice.between + tuned().choice.wide * 0.4;
+        let mean = usual(&single[0].spot).midpoint(usual(&single[1].spot));
+        let cost = mean + tuned().choice.between + tuned().choice.wide * 0.4;
         assert!((joined[0].cost - cost).abs() < 1e-12, "{}", joined[0].cost);
     }
 }

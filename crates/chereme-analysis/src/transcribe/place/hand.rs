@@ -32,6 +32,8 @@ pub(super) struct Hand {
     slack: f64,
     /// Distance of the palm before the wrist, in metres; negative behind it.
     pub(super) ahead: f64,
+    /// Whether it is the point between two hands.
+    pub(super) between: bool,
 }
 
 impl Hand {
@@ -56,6 +58,7 @@ impl Hand {
             points,
             slack: scene.slack,
             ahead: (track.palm[frame] - track.wrist[frame]).z,
+            between: false,
         })
     }
 
@@ -70,8 +73,8 @@ impl Hand {
         }
     }
 
-    /// Creates a hand from the position of its palm and its distance before the wrist alone.
-    pub(super) fn only(palm: DVec3, ahead: f64) -> Self {
+    /// Creates the point between two hands, this far before the wrist (m).
+    pub(super) fn between(palm: DVec3, ahead: f64) -> Self {
         Self {
             palm,
             axes: [DVec3::Z, DVec3::NEG_Y, DVec3::X],
@@ -80,6 +83,7 @@ impl Hand {
             named: Vec::new(),
             slack: 0.0,
             ahead,
+            between: true,
         }
     }
 
@@ -262,7 +266,7 @@ fn facing(face: Face, [along, normal, radial]: [DVec3; 3], bone: DVec3) -> DVec3
 }
 
 /// Returns the rank of a hand point: higher ones are less often named if another point is equally near.
-/// Tips of the first fingers and whole faces of the hand are named most.
+/// Tips of the first fingers and whole faces of the hand are named most, the pad of the thumb hardly.
 pub(super) fn rank(point: HandPoint) -> f64 {
     let digit = |digit: Digit| match digit {
         Digit::Thumb | Digit::Index | Digit::Middle => 0.0,
@@ -272,6 +276,7 @@ pub(super) fn rank(point: HandPoint) -> f64 {
         HandPoint::Palm | HandPoint::Radial => 0.0,
         HandPoint::Tip(of, Face::Middle) => digit(of),
         HandPoint::Back | HandPoint::Ulnar => 0.5,
+        HandPoint::Tip(Digit::Thumb, Face::Palmar) => 1.0,
         HandPoint::Tip(of, Face::Palmar | Face::Dorsal) => 0.5 + digit(of),
         HandPoint::Tip(of, _) => 1.0 + digit(of),
         HandPoint::Wrist(_) | HandPoint::ThumbBall => 2.5,

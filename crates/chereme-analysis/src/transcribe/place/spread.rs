@@ -5,49 +5,58 @@ use glam::DVec3;
 use super::super::scene::Scene;
 use crate::transcribe::tuned::tuned;
 
+/// The kinds of hands that touch nothing, with displacements of their own.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Free {
+    /// A hand before the trunk.
+    Trunk,
+    /// A hand before the head.
+    Head,
+    /// The point between two hands, which keep clear of each other.
+    Between,
+}
+
+/// What a hand touches or should touch.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Touched {
+    Trunk,
+    /// The head or an arm.
+    Other,
+    /// The other hand.
+    Hand,
+}
+
 /// Distributions of a hand's offset from its intended place, as mixtures of normal distributions.
 #[derive(Clone)]
 pub(super) struct Spread {
     /// Standard deviation about the place, in metres.
     about: f64,
-    /// Standard deviations of the room (m): sideways, up and forward; and sideways, down and back.
-    room: [DVec3; 2],
     arm: f64,
 }
 
 impl Spread {
     pub(super) fn of(scene: &Scene<'_>) -> Self {
-        let l = scene.language;
-        let wide = |by: DVec3| {
-            let own = DVec3::splat(scene.slack);
-            (by * by * scene.arm * scene.arm + own * own).map(f64::sqrt)
-        };
         Self {
             about: scene.slack,
-            room: [
-                wide(DVec3::new(l.room_side, l.room_up, l.room_forward)),
-                wide(DVec3::new(l.room_side, l.room_down, l.room_back)),
-            ],
             arm: scene.arm,
         }
     }
 
     /// Returns the penalty (nepers) of a hand before a place at the offset `off` (left, up, forward;
     /// metres), against a hand exactly there. With `far`, the arm should reach far and may fall short.
-    pub(super) fn free(&self, off: DVec3, far: bool) -> f64 {
+    pub(super) fn free(&self, off: DVec3, of: Free, far: bool) -> f64 {
+        let of = of as usize;
+        let [side, up, down, forward, back] = tuned().spread.room[of];
         let room = DVec3::new(
-            self.room[0].x,
-            self.room[usize::from(off.y < 0.0)].y,
-            self.room[usize::from(off.z < 0.0)].z,
+            side,
+            if off.y < 0.0 { down } else { up },
+            if off.z < 0.0 { back } else { forward },
         );
-        let room = if far {
-            room * tuned().spread.short
-        } else {
-            room
-        };
-        let anywhere = DVec3::splat(tuned().spread.anywhere[0] * self.arm);
+        let reach = if far { tuned().spread.short } else { 1.0 };
+        let room = room.map(|by| reach * (by * self.arm).hypot(self.about));
+        let anywhere = DVec3::splat(tuned().spread.anywhere[of] * self.arm);
         self.unlikely(
-            tuned().spread.shares,
+            tuned().spread.free[of],
             [normal(off, room), normal(off, anywhere)],
             off,
         )
@@ -56,12 +65,11 @@ impl Spread {
     /// Like [`free`](Self::free), for a hand that touches a place with the outward normal `out`. Hands
     /// that would be in the trunk are pushed out of it.
     pub(super) fn touching(&self, off: DVec3, out: DVec3, trunk: bool) -> f64 {
-        let anywhere = DVec3::splat(tuned().spread.anywhere[1] * self.arm);
-        let missed = tuned().spread.missed * self.arm + self.about;
+        let [of_trunk, of_other] = tuned().spread.touching;
         if !trunk {
-            let missed = normal(off, DVec3::splat(missed));
-            return self.unlikely(tuned().spread.shares, [missed, normal(off, anywhere)], off);
+            return self.near(of_other, off, Touched::Other);
         }
+        let missed = self.missed(Touched::Trunk);
         let far = off.dot(out);
         let aside = off - out * far;
         let mean = tuned().spread.pushed * self.arm;
@@ -74,22 +82,28 @@ impl Spread {
             -0.5 * (far / missed).powi(2)
         };
         let pushed = flat * ahead.exp() / mean;
-        self.unlikely(
-            tuned().spread.of_trunk,
-            [pushed, normal(off, anywhere)],
-            off,
-        )
+        let astray = normal(off, self.astray(Touched::Trunk));
+        self.unlikely(of_trunk, [pushed, astray], off)
     }
 
     /// Like [`free`](Self::free), for a hand that should be at the other hand.
     pub(super) fn together(&self, off: DVec3) -> f64 {
-        let missed = DVec3::splat(tuned().spread.missed * self.arm + self.about);
-        let anywhere = DVec3::splat(tuned().spread.anywhere[1] * self.arm);
-        self.unlikely(
-            tuned().spread.shares,
-            [normal(off, missed), normal(off, anywhere)],
-            off,
-        )
+        self.near(tuned().spread.shares, off, Touched::Hand)
+    }
+
+    fn near(&self, shares: [f64; 3], off: DVec3, of: Touched) -> f64 {
+        let missed = normal(off, DVec3::splat(self.missed(of)));
+        self.unlikely(shares, [missed, normal(off, self.astray(of))], off)
+    }
+
+    /// Returns the standard deviation (m) of a hand that should touch something but misses it.
+    fn missed(&self, of: Touched) -> f64 {
+        tuned().spread.missed[of as usize] * self.arm + self.about
+    }
+
+    /// Returns the standard deviations (m) of a hand that should touch something but may be anywhere.
+    fn astray(&self, of: Touched) -> DVec3 {
+        DVec3::splat(tuned().spread.astray[of as usize] * self.arm)
     }
 
     fn unlikely(&self, shares: [f64; 3], [some, any]: [f64; 2], off: DVec3) -> f64 {
@@ -113,11 +127,7 @@ mod tests {
     use super::*;
 
     fn spread(about: f64) -> Spread {
-        Spread {
-            about,
-            room: [DVec3::new(0.02, 0.01, 0.03).map(|by| by.hypot(about)); 2],
-            arm: 0.55,
-        }
+        Spread { about, arm: 0.55 }
     }
 
     #[test]
@@ -126,19 +136,21 @@ mod tests {
             let spread = spread(about);
             for direction in [DVec3::X, DVec3::Y, DVec3::NEG_Z] {
                 let at = |n: i32| direction * (0.01 * f64::from(n));
-                let all: Vec<[f64; 3]> = (0..12)
+                let all: Vec<Vec<f64>> = (0..12)
                     .map(|n| {
                         let off = at(n);
                         let touch = spread.touching(off, DVec3::Z, false);
-                        [spread.free(off, false), touch, spread.together(off)]
+                        let free = [Free::Trunk, Free::Head, Free::Between];
+                        let free = free.map(|of| spread.free(off, of, false));
+                        [free.as_slice(), &[touch, spread.together(off)]].concat()
                     })
                     .collect();
                 for (n, pair) in all.windows(2).enumerate() {
-                    let farther = pair[0].iter().zip(pair[1]).all(|(a, b)| *a < b);
+                    let farther = pair[0].iter().zip(&pair[1]).all(|(a, b)| a < b);
                     assert!(farther, "{about} {direction} {n}: {pair:?}");
                 }
                 assert!(all[0].iter().all(|it| it.abs() < 0.3));
-                assert!(spread.free(direction * 0.15, false) < 20.0);
+                assert!(spread.free(direction * 0.15, Free::Trunk, false) < 20.0);
             }
         }
     }
@@ -149,8 +161,8 @@ mod tests {
         let touch = |off: DVec3| spread.touching(off, DVec3::Z, true);
         assert!(touch(DVec3::Z * 0.06) + 1.0 < touch(DVec3::X * 0.06));
         assert!(touch(DVec3::Z * 0.06) + 1.0 < touch(DVec3::NEG_Z * 0.06));
-        let free = |off: DVec3| spread.free(off, false);
+        let free = |off: DVec3| spread.free(off, Free::Trunk, false);
         assert!(free(DVec3::Z * 0.03) + 2.0 < free(DVec3::Y * 0.03));
-        assert!(spread.free(DVec3::Y * 0.04, true) < free(DVec3::Y * 0.04));
+        assert!(spread.free(DVec3::Y * 0.04, Free::Trunk, true) < free(DVec3::Y * 0.04));
     }
 }

@@ -8,6 +8,7 @@ use chereme_sign::hamnosys::{BodyLocation, BodyPlace, Contact, Site};
 use glam::DVec3;
 
 use super::hand::{Hand, Spotted, rank};
+use super::spread::Free;
 use super::{Body, Placed};
 use crate::transcribe::tuned::tuned;
 
@@ -205,7 +206,7 @@ impl Body<'_> {
         together: &Together,
         most: usize,
     ) -> Vec<Placed> {
-        let hand = Hand::only(together.at[0].midpoint(together.at[1]), self.ahead());
+        let hand = Hand::between(together.at[0].midpoint(together.at[1]), self.ahead());
         let mut all = self.likeliest_of(0, &hand, false, most);
         all.extend(self.shared(hand.palm));
         for placed in &mut all {
@@ -223,11 +224,11 @@ impl Body<'_> {
     /// Returns the place nearest to a point that both hands share; empty in neutral space.
     fn shared(&self, at: DVec3) -> Option<Placed> {
         let ahead = self.ahead();
-        let mut placed = self.placed(0, &Hand::only(at, ahead), false)?;
+        let mut placed = self.placed(0, &Hand::between(at, ahead), false)?;
         placed.place.by = None;
         let neutral = self.spot(0, &NEUTRAL)?;
         let off = at - self.goal(&neutral, None, (0, ahead), false);
-        let score = self.spread.free(off, false);
+        let score = self.spread.free(off, Free::Between, false) + tuned().choice.neutral;
         if score > placed.score {
             return Some(placed);
         }
