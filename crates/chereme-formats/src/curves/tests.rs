@@ -188,6 +188,23 @@ fn media_pipe_scores_become_curves_with_gaps() {
 }
 
 #[test]
+fn numbers_of_json_are_kept_to_the_last_digit() {
+    let scores = [
+        "0.9452706955539223",
+        "0.38120423768821243",
+        "0.21659939713061338",
+    ];
+    for score in scores {
+        let frame = format!(
+            "{{\"timestampMs\": 0, \"faceBlendshapes\": [{{\"categories\": [{{\"categoryName\": \"jawOpen\", \"score\": {score}}}]}}]}}"
+        );
+        let (found, ..) = curves(&format!("[{frame}, {}]", frame.replace(": 0,", ": 40,")));
+        let exact = score.parse::<f64>().ok();
+        assert_eq!(values(&found, "jawOpen"), [exact, exact], "{score}");
+    }
+}
+
+#[test]
 fn fap_text_holds_what_its_masks_name() {
     let masks = |on: &[usize]| {
         let bits = (1..=68).map(|at| if on.contains(&at) { "1" } else { "0" });
