@@ -198,7 +198,9 @@ struct Row<'a> {
 impl<'a> Row<'a> {
     fn cell(&self, name: &str) -> &'a str {
         let at = self.titles.iter().position(|it| it == name);
-        at.map_or("", |at| self.cells[at].trim())
+        // A row may have fewer cells than there are titles.
+        at.and_then(|at| self.cells.get(at))
+            .map_or("", |it| it.trim())
     }
 
     /// Returns a value that may be missing.

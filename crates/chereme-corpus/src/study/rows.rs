@@ -1,15 +1,20 @@
 //! Tables as people save them: titles, and rows with their lines.
 
+use std::collections::BTreeSet;
+
+use super::fits::short;
 use crate::error::{Error, Result};
 
-/// The largest number of rows.
+/// The largest number of rows, of columns, and of cells.
 const MOST: usize = 1_000_000;
+const MOST_COLUMNS: usize = 1000;
+const MOST_CELLS: usize = 10_000_000;
 
 /// A table of text.
 pub(super) struct Table {
     /// The titles of the columns.
     pub(super) titles: Vec<String>,
-    /// The rows that are not empty, each with its line, from 1; as many cells as there are titles.
+    /// The rows that are not empty, each with its line, from 1; at most as many cells as there are titles.
     pub(super) rows: Vec<(u64, Vec<String>)>,
 }
 
@@ -29,13 +34,22 @@ pub(super) fn table(text: &str, file: &str) -> Result<Table> {
         Error::wrong(format!("the table cannot be read: {error}"))
             .at(format!("{file}, line {line}"))
     };
-    let titles: Vec<String> = reader
-        .headers()
-        .map_err(fault)?
-        .iter()
-        .map(|it| it.trim().to_owned())
-        .collect();
+    let titles = reader.headers().map_err(fault)?;
+    if titles.len() > MOST_COLUMNS {
+        let message = format!("the table has more than {MOST_COLUMNS} columns");
+        return Err(Error::wrong(message).at(file));
+    }
+    let titles: Vec<String> = titles.iter().map(|it| it.trim().to_owned()).collect();
+    let mut seen = BTreeSet::new();
+    let twice = titles.iter().find(|it| !it.is_empty() && !seen.insert(*it));
+    if let Some(title) = twice {
+        let message = format!("the table has two columns {:?}", short(title));
+        return Err(Error::wrong(message)
+            .at(file)
+            .advise("give each column a title of its own"));
+    }
     let mut rows = Vec::new();
+    let mut held = 0;
     let (mut line, mut counted) = (1, 0);
     for record in reader.records() {
         let record = record.map_err(fault)?;
@@ -46,7 +60,7 @@ pub(super) fn table(text: &str, file: &str) -> Result<Table> {
         let passed = &text.as_bytes()[counted..start];
         line += passed.iter().filter(|it| **it == b'\n').count() as u64;
         counted = start;
-        let mut cells: Vec<String> = record.iter().map(str::to_owned).collect();
+        let cells: Vec<String> = record.iter().map(str::to_owned).collect();
         if cells.iter().all(|it| it.trim().is_empty()) {
             continue;
         }
@@ -60,11 +74,37 @@ pub(super) fn table(text: &str, file: &str) -> Result<Table> {
                 .at(format!("{file}, line {line}"))
                 .advise("put a cell that holds the separator into double quotes"));
         }
-        cells.resize(titles.len(), String::new());
         if rows.len() == MOST {
             return Err(Error::wrong(format!("the table has more than {MOST} rows")).at(file));
+        }
+        held += cells.len();
+        if held > MOST_CELLS {
+            let message = format!("the table has more than {MOST_CELLS} cells");
+            return Err(Error::wrong(message).at(file));
         }
         rows.push((line, cells));
     }
     Ok(Table { titles, rows })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_rows_take_no_room_and_odd_titles_are_refused() {
+        let read = table("a,b,c\nx\ny,z\n", "t.csv").expect("read");
+        let lengths: Vec<usize> = read.rows.iter().map(|(_, cells)| cells.len()).collect();
+        assert_eq!(lengths, [1, 2]);
+        for (text, message) in [
+            (",".repeat(5000), "the table has more than 1000 columns"),
+            (
+                "a,b,a\n1,2,3\n".to_owned(),
+                "the table has two columns \"a\"",
+            ),
+        ] {
+            let error = table(&text, "t.csv").err().expect("refused");
+            assert!(error.to_string().contains(message), "{error}");
+        }
+    }
 }

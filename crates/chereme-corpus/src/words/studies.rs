@@ -199,6 +199,34 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "mettez entre guillemets doubles une case qui contient le séparateur",
     ),
     (
+        "the table has more than {n} columns",
+        "le tableau a plus de {n} colonnes",
+    ),
+    (
+        "the table has more than {n} cells",
+        "le tableau a plus de {n} cases",
+    ),
+    (
+        "the table has two columns {name}",
+        "le tableau a deux colonnes {name}",
+    ),
+    (
+        "give each column a title of its own",
+        "donnez à chaque colonne un titre à elle",
+    ),
+    (
+        "{question} was answered more often than {item} ({condition}) is shown",
+        "{question} a eu plus de réponses que {item} ({condition}) n’est montré",
+    ),
+    (
+        "another participant has the code {code}, whose answers stay: the seeds are {a} and {b}",
+        "un autre participant a le code {code}, et ses réponses restent : les graines sont {a} et {b}",
+    ),
+    (
+        "if they are two people, write another code into this file; if not, delete the earlier answers with `chereme study forget CORPUS NAME CODE`; then import again",
+        "si ce sont deux personnes, écrivez un autre code dans ce fichier ; sinon supprimez les premières réponses avec `chereme study forget CORPUS NOM CODE` ; puis importez de nouveau",
+    ),
+    (
         "the table has more than {n} rows",
         "le tableau a plus de {n} lignes",
     ),
