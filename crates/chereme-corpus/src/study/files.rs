@@ -36,13 +36,19 @@ pub(super) fn listed(path: &Path, depth: usize, files: &mut Vec<PathBuf>) -> Res
                 .extension()
                 .map(|it| it.to_string_lossy().to_lowercase());
             let may = matches!(ending.as_deref(), Some("json" | "csv"));
-            if kind.is_dir() || (kind.is_file() && may) {
-                inside.push(own);
+            // A link to a file is read as one, a link to a folder is not followed: it could lead in circles.
+            let leads_to_folder = kind.is_symlink() && own.is_dir();
+            if kind.is_dir() || (may && !leads_to_folder) {
+                inside.push((own, kind.is_dir()));
             }
         }
         inside.sort();
-        for own in inside {
-            listed(&own, depth + 1, files)?;
+        for (own, is_folder) in inside {
+            if is_folder {
+                listed(&own, depth + 1, files)?;
+            } else {
+                files.push(own);
+            }
         }
     }
     if files.len() > MOST_FILES {

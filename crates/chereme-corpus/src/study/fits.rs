@@ -1,10 +1,10 @@
 //! Whether answers fit the plan: what does not is left out.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Participant};
 use super::files::Findings;
-use super::plan::{Plan, QuestionKind};
+use super::plan::{Plan, QuestionKind, Role};
 
 /// The largest number of answers of a participant.
 const MOST_ANSWERS: usize = 100_000;
@@ -95,6 +95,7 @@ pub(super) fn answers(
     findings: &mut Findings,
 ) {
     let mut seen = BTreeSet::new();
+    let mut given: BTreeMap<[String; 5], u32> = BTreeMap::new();
     let mut at = 0;
     person.answers.retain_mut(|answer| {
         let number = at + 1;
@@ -107,7 +108,23 @@ pub(super) fn answers(
                 short(&answer.question),
                 answer.n
             )),
-            Ok(()) => None,
+            Ok(()) => {
+                // Training and checks are shown once, other trials once in each block.
+                let most = match answer.role {
+                    Role::Main => plan.design.blocks,
+                    Role::Training | Role::Check => 1,
+                };
+                let times = given.entry(place(answer)).or_default();
+                *times += 1;
+                (*times > most).then(|| {
+                    format!(
+                        "{:?} was answered more often than {:?} ({}) is shown",
+                        short(&answer.question),
+                        short(&answer.item),
+                        short(&answer.condition)
+                    )
+                })
+            }
         };
         let Some(fault) = fault else {
             return true;
@@ -116,6 +133,13 @@ pub(super) fn answers(
         findings.add("warning", line, message, None);
         false
     });
+}
+
+/// Returns the trial of an answer, and its question.
+fn place(it: &Answer) -> [String; 5] {
+    let (part, item, condition) = (it.part.clone(), it.item.clone(), it.condition.clone());
+    let role = it.role.name().to_owned();
+    [part, item, condition, role, it.question.clone()]
 }
 
 /// Checks an answer, and fills in its scale and whether it is right.

@@ -209,6 +209,17 @@ impl Work<'_> {
         if before.as_ref() == Some(&person) {
             return Ok((person, Became::Unchanged));
         }
+        if let Some(before) = before.as_ref().filter(|it| it.seed != person.seed) {
+            let message = format!(
+                "another participant has the code {:?}, whose answers stay: the seeds are {} and {}",
+                person.code, before.seed, person.seed
+            );
+            let remedy = Remedy::command(
+                "if they are two people, write another code into this file; if not, delete the earlier answers with `chereme study forget CORPUS NAME CODE`; then import again",
+            );
+            findings.add("warning", None, message, Some(remedy));
+            return Ok((person, Became::Refused));
+        }
         let earlier = before.map_or(0, |it| it.answers.len());
         if finished {
             let message = format!(

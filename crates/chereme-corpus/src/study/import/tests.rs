@@ -185,6 +185,45 @@ fn later_answers_replace_unfinished_ones_only() {
 }
 
 #[test]
+fn a_code_that_two_people_chose_costs_neither_their_answers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut corpus, plan) = corpus(folder.path());
+    let one = answer(1, "BOL", "captured", "places");
+    let mut content = file(&plan, "p", false, std::slice::from_ref(&one));
+    import(&mut corpus, &write(folder.path(), "1.json", &content));
+    let before = corpus.study("bowls").expect("read");
+    content["seed"] = json!(8);
+    content["finished"] = json!(true);
+    let report = import(&mut corpus, &write(folder.path(), "2.json", &content));
+    assert_eq!(report.files[0].status, FileStatus::Refused);
+    let message = &report.files[0].findings[0].message;
+    assert!(message.contains("the seeds are 7 and 8"), "{message}");
+    assert_eq!(corpus.study("bowls").expect("read"), before);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_folder_gives_the_files_that_its_links_lead_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut corpus, plan) = corpus(folder.path());
+    let one = answer(1, "BOL", "captured", "places");
+    let file = file(&plan, "p", true, std::slice::from_ref(&one));
+    let file = write(folder.path(), "1.json", &file);
+    let inside = folder.path().join("answers");
+    fs::create_dir(&inside).expect("made");
+    for (to, name) in [
+        (&*file, "a.json"),
+        ("nowhere".as_ref(), "b.json"),
+        (&*inside, "c.json"),
+    ] {
+        std::os::unix::fs::symlink(to, inside.join(name)).expect("linked");
+    }
+    let report = import(&mut corpus, &inside);
+    let found: Vec<FileStatus> = report.files.iter().map(|it| it.status).collect();
+    assert_eq!(found, [FileStatus::Imported, FileStatus::Refused]);
+}
+
+#[test]
 fn a_merge_brings_the_participants_of_both_sides_and_the_studies_of_the_other() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mine, plan) = corpus(folder.path());
@@ -270,6 +309,10 @@ fn what_does_not_fit_the_plan_is_left_out_with_a_finding() {
         (
             with("n", json!(1)),
             "\"realism\" was answered twice in trial 1",
+        ),
+        (
+            with("condition", json!("captured")),
+            "\"realism\" was answered more often than \"BOL\" (captured) is shown",
         ),
     ] {
         let path = write(
