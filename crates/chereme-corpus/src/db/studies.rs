@@ -67,6 +67,28 @@ pub(crate) fn study(connection: &Connection, name: &str) -> Result<Option<(i64, 
     Ok(found)
 }
 
+/// Returns the name, with a number after it if a study has it already.
+pub(crate) fn free_name(connection: &Connection, name: &str) -> Result<String> {
+    let mut free = name.to_owned();
+    let mut count = 1;
+    while study(connection, &free)?.is_some() {
+        count += 1;
+        free = format!("{name} ({count})");
+    }
+    Ok(free)
+}
+
+/// Returns the code, with a number after it if a participant of the study has it already.
+pub(crate) fn free_code(connection: &Connection, study: i64, code: &str) -> Result<String> {
+    let mut free = code.to_owned();
+    let mut count = 1;
+    while !participants(connection, study, Some(&free))?.is_empty() {
+        count += 1;
+        free = format!("{code}-{count}");
+    }
+    Ok(free)
+}
+
 /// Adds a study, and returns its row number.
 pub(crate) fn insert(connection: &Connection, it: &StudyRow) -> Result<i64> {
     connection

@@ -22,7 +22,7 @@ pub(crate) use conflicts::{keep_annotation, waiting};
 
 use crate::Corpus;
 use crate::db::merge::{self as db, Image, Key, Side};
-use crate::db::{edits, recordings, signs, tiers, tracks};
+use crate::db::{edits, recordings, signs, studies, tiers, tracks};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
@@ -350,6 +350,26 @@ impl Work<'_> {
                     let name = tracks::free_name(self.connection, recording, &text("name"))?;
                     local.insert("name".into(), Value::from(name));
                 }
+                // Answers belong to their plan, and to the person whose order of trials the seed decided.
+                "study" if self.differs(table, there, &local, "plan_sha256")? => {
+                    let name = studies::free_name(self.connection, &text("name"))?;
+                    self.report.notes.push(format!(
+                        "both have a study {:?} with another plan: that of {} is {name:?} here",
+                        text("name"),
+                        self.from
+                    ));
+                    local.insert("name".into(), Value::from(name));
+                }
+                "study_participant" if self.differs(table, there, &local, "seed")? => {
+                    let study = local["study_id"].as_i64().unwrap_or_default();
+                    let code = studies::free_code(self.connection, study, &text("code"))?;
+                    self.report.notes.push(format!(
+                        "both have a participant {:?}, two people: that of {} is {code:?} here",
+                        text("code"),
+                        self.from
+                    ));
+                    local.insert("code".into(), Value::from(code));
+                }
                 _ => return self.join(key, theirs, there),
             }
         }
@@ -371,6 +391,14 @@ impl Work<'_> {
         self.touch(table, &local, id)?;
         *self.report.added.entry(table.to_owned()).or_default() += 1;
         Ok(())
+    }
+
+    /// Returns whether a row of this side has another value in a column.
+    fn differs(&self, table: &str, row: i64, image: &Image, column: &str) -> Result<bool> {
+        let uid = db::uid_of(self.connection, table, row)?;
+        let own = uid.map(|uid| self.mine.row(table, &uid)).transpose()?;
+        let own = own.flatten();
+        Ok(own.is_some_and(|own| own.get(column) != image.get(column)))
     }
 
     /// Merges a row with the row of the same name here: both sides created it separately.

@@ -21,7 +21,9 @@ pub(super) struct Stored {
 pub(super) fn study(connection: &Connection, name: &str) -> Result<Option<Stored>> {
     let found = db::study(connection, name)?;
     let stored = found.map(|(id, it)| {
-        let plan = read(&it.plan, || format!("study {name:?}"))?;
+        let mut plan: Plan = read(&it.plan, || format!("study {name:?}"))?;
+        // A merge gives another name to a study whose name is taken.
+        plan.name = it.name;
         let sha256 = it.plan_sha256;
         Ok(Stored { id, plan, sha256 })
     });

@@ -234,6 +234,14 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "both have a recording {name}: that of {path} is {other} here",
         "les deux ont un enregistrement {name} : celui de {path} est {other} ici",
     ),
+    (
+        "both have a study {name} with another plan: that of {path} is {other} here",
+        "les deux ont une étude {name}, avec un autre plan : celle de {path} est {other} ici",
+    ),
+    (
+        "both have a participant {code}, two people: that of {path} is {other} here",
+        "les deux ont un participant {code}, deux personnes : celui de {path} est {other} ici",
+    ),
     ("it is another file", "c’est un autre fichier"),
     ("nothing is written over", "rien n’est remplacé"),
     (

@@ -271,6 +271,52 @@ fn a_merge_brings_the_participants_of_both_sides_and_the_studies_of_the_other() 
 }
 
 #[test]
+fn a_merge_keeps_studies_and_people_apart_that_only_share_a_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, plan) = corpus(folder.path());
+    let other = folder.path().join("other.chereme");
+    let path = mine.path().to_owned();
+    drop(mine);
+    fs::copy(&path, &other).expect("copied");
+    mine = Corpus::open(&path, "A").expect("opened");
+    let mut theirs = Corpus::open(&other, "B").expect("opened");
+    let one = answer(1, "BOL", "captured", "places");
+    let mut second = plan.clone();
+    second.name = "second".into();
+    for (corpus, seed) in [(&mut mine, 7), (&mut theirs, 8)] {
+        let mut content = file(&plan, "p", false, std::slice::from_ref(&one));
+        content["seed"] = json!(seed);
+        import(corpus, &write(folder.path(), "p.json", &content));
+        second.design.seed = seed;
+        let stored = corpus.store.operation("plan study", |connection| {
+            db::insert(connection, &stored::row(&second))?;
+            Ok(((), String::new()))
+        });
+        stored.expect("stored");
+    }
+    drop(theirs);
+    let mut hear = unheard;
+    let report = mine
+        .merge(&other, None, &mut Progress::new(&mut hear))
+        .expect("merged");
+    assert!(report.conflicts.is_empty(), "{report:?}");
+    assert_eq!(report.notes.len(), 2, "{report:?}");
+    let people = mine.study("bowls").expect("read").participants;
+    let seeds: Vec<(&str, u32)> = people
+        .iter()
+        .map(|it| (it.code.as_str(), it.seed))
+        .collect();
+    assert_eq!(seeds, [("p", 7), ("p-2", 8)]);
+    assert_eq!(mine.study("second").expect("kept").plan.design.seed, 7);
+    let brought = mine.study("second (2)").expect("brought");
+    assert_eq!(
+        (brought.plan.design.seed, brought.plan.name.as_str()),
+        (8, "second (2)")
+    );
+    assert_eq!(brought.plan_sha256, second.sha256());
+}
+
+#[test]
 fn what_does_not_fit_the_plan_is_left_out_with_a_finding() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut corpus, plan) = corpus(folder.path());
