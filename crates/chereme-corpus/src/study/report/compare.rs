@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 
 use chereme_analysis::statistics::{
-    Alternative, Description, Effect, Interval, Method, Resamples, Undefined, Zeros, equivalence,
-    fisher, friedman, holm, kendall, kruskal_wallis, mann_whitney, mcnemar, spearman, wilcoxon,
+    Alternative, Description, Effect, Equivalence, Interval, Method, Resamples, Undefined, Zeros,
+    equivalence, fisher, friedman, holm, kendall, kruskal_wallis, mann_whitney, mcnemar, spearman,
+    wilcoxon,
 };
 
 use super::conclude::conclude;
@@ -327,14 +328,7 @@ fn pair(places: [usize; 2], groups: [&Answered; 2], settings: &Settings, resampl
             .and_then(|it| ends(it, level))
             .into(),
     });
-    let sameness = resamples.and_then(|it| {
-        let ends = ends(&it, 1.0 - 2.0 * settings.alpha)?;
-        Ok(Sameness {
-            bound: settings.bound,
-            ends,
-            result: equivalence([ends.low, ends.high], settings.bound)?,
-        })
-    });
+    let sameness = resamples.and_then(|it| sameness(&it, settings));
     let mean = both.iter().map(|[x, y]| x - y).sum::<f64>() / both.len() as f64;
     Pair {
         groups: places,
@@ -492,6 +486,29 @@ fn ends(resamples: &Resamples, level: f64) -> Result<Ends, Undefined> {
         Err(Undefined::NoSpread) => of(Interval::Percentile),
         found => found,
     }
+}
+
+/// Returns whether the groups are the same within the bound.
+///
+/// Nobody is called the same by fewer people than a sign test needs to be significant, or by resamples that are all
+/// equal: these know nothing of the people who were not asked.
+fn sameness(resamples: &Resamples, settings: &Settings) -> Result<Sameness, Undefined> {
+    let ends = ends(resamples, 1.0 - 2.0 * settings.alpha)?;
+    let result = equivalence([ends.low, ends.high], settings.bound)?;
+    if result == Equivalence::Equivalent {
+        let people = i32::try_from(resamples.jackknife.len()).unwrap_or(i32::MAX);
+        if 0.5_f64.powi(people) > settings.alpha {
+            return Err(Undefined::TooFew);
+        }
+        if resamples.values.first() == resamples.values.last() {
+            return Err(Undefined::NoSpread);
+        }
+    }
+    Ok(Sameness {
+        bound: settings.bound,
+        ends,
+        result,
+    })
 }
 
 fn with_measure(

@@ -45,7 +45,12 @@ fn of_difference(compared: &Compared, alpha: f64) -> Conclusion {
         Ok(_) if results(compared).all(|it| it == Ok(Equivalence::Equivalent)) => {
             verdict(Verdict::NotSupported, Because::WithinBounds)
         }
-        Ok(_) => verdict(Verdict::Undecided, Because::WideInterval),
+        Ok(_) => match results(compared).find_map(Result::err) {
+            Some(why @ (Undefined::TooFew | Undefined::NoSpread)) => {
+                verdict(Verdict::Undecided, Because::NoTest(why))
+            }
+            _ => verdict(Verdict::Undecided, Because::WideInterval),
+        },
         Err(why) => verdict(Verdict::Undecided, Because::NoTest(why)),
     }
 }

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 
 use super::{chosen, person, plan_of, rated, realism, trial};
 use crate::study::plan::Exclusion;
-use crate::study::report::{Outcome, Reason, ReportOptions, TestName, report};
+use crate::study::report::{Because, Outcome, Reason, ReportOptions, TestName, Verdict, report};
 use crate::words::Language;
 
 fn options() -> ReportOptions {
@@ -119,6 +119,48 @@ fn answers_that_cannot_be_compared_say_why() {
     );
     assert_eq!(odd.questions[0].conditions[0].answers, 0);
     assert_eq!(odd.questions[0].conditions[0].cannot_say, 1);
+}
+
+#[test]
+fn few_people_or_equal_answers_show_no_sameness() {
+    let trials = [trial("", "CAT", "a"), trial("", "CAT", "b")];
+    let groups = json!([{"conditions": ["a"]}, {"conditions": ["b"]}]);
+    let hypotheses = [json!("difference"), json!({"same-within": 0.3})].map(
+        |expects| json!({"name": "H", "question": "realism", "compares": {"between": groups}, "expects": expects}),
+    );
+    let plan = plan_of(
+        &trials,
+        json!([realism()]),
+        json!({"hypotheses": hypotheses}),
+    );
+    let people = |count: usize, spread: usize| -> Vec<_> {
+        let answers = |n: usize| {
+            let value = 3 + (n % 4 == 0) as i64 * spread as i64;
+            let other = value - (n % 8 == 0) as i64 * spread as i64;
+            [rated("", "CAT", "a", value), rated("", "CAT", "b", other)]
+        };
+        (0..count).map(|n| person(n, "", &answers(n))).collect()
+    };
+    for (count, spread, verdict, because) in [
+        (3, 0, Verdict::Undecided, Because::NoTest(Undefined::TooFew)),
+        (
+            40,
+            0,
+            Verdict::Undecided,
+            Because::NoTest(Undefined::NoSpread),
+        ),
+        (40, 1, Verdict::Supported, Because::WithinBounds),
+    ] {
+        let found = report(&plan, &people(count, spread), &options());
+        let same = found.comparisons[1].conclusion.expect("a conclusion");
+        assert_eq!(
+            (same.verdict, same.because),
+            (verdict, because),
+            "{count} {spread}"
+        );
+        let other = found.comparisons[0].conclusion.expect("a conclusion");
+        assert_ne!(other.verdict, Verdict::Supported, "{count} {spread}");
+    }
 }
 
 #[test]
