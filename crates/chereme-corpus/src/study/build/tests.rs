@@ -173,6 +173,28 @@ fn what_cannot_be_made_is_named_and_a_stopped_build_leaves_nothing() {
 }
 
 #[test]
+fn the_script_saves_answers_before_it_forgets_them() {
+    let place = |text: &str, from: usize| {
+        let found = SCRIPT[from..].find(text);
+        from + found.unwrap_or_else(|| panic!("the script has no {text:?}"))
+    };
+    for (function, saves, forgets) in [
+        ("function begin(", "rescue(null)", "person = {"),
+        ("function proceed(", "rescue(saved)", "person = saved"),
+        (
+            "function thanks(",
+            "if (dirty) save()",
+            "localStorage.removeItem",
+        ),
+    ] {
+        let begin = place(function, 0);
+        let end = place("\n}\n", begin);
+        assert!(place(saves, begin) < place(forgets, begin), "{function}");
+        assert!(place(forgets, begin) < end, "{function}");
+    }
+}
+
+#[test]
 fn base64_is_that_of_the_standard() {
     // RFC 4648, section 10.
     for (text, code) in [

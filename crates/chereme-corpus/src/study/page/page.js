@@ -100,6 +100,15 @@ function readable(text) {
   return whole ? it : null;
 }
 
+// Saves the answers that this browser keeps before those of `next` take their place, if they would be lost.
+function rescue(next) {
+  const earlier = kept();
+  const same = earlier && next && earlier.participant === next.participant && earlier.seed === next.seed;
+  if (!earlier || !earlier.answers.length || (same && earlier.answers.length <= next.answers.length)) return;
+  person = earlier;
+  save();
+}
+
 function save() {
   const plain = (text) => text.replace(/[^\p{L}\p{N}\-_]+/gu, "-");
   const name = `${plain(data.study)}-${plain(person.participant)}.json`;
@@ -175,6 +184,7 @@ function begin(code, publication) {
   // ?n=12 in the address gives participant number 12 the row of that number; others draw one once.
   const number = Number(new URLSearchParams(location.search).get("n"));
   const seed = Number.isInteger(number) && number > 0 ? number - 1 : crypto.getRandomValues(new Uint32Array(1))[0];
+  rescue(null);
   const now = new Date();
   const two = (value) => String(value).padStart(2, "0");
   person = {
@@ -189,6 +199,7 @@ function begin(code, publication) {
 
 // Goes on with answers that were kept or saved.
 function proceed(saved) {
+  rescue(saved);
   person = saved;
   language = saved.language === "fr" ? "fr" : "en";
   keep();
@@ -414,6 +425,7 @@ function thanks() {
   const done = el("p", { role: "status" });
   const saveAll = () => { done.textContent = t("saved").replace("{name}", save()); };
   const other = () => {
+    if (dirty) save();
     try { localStorage.removeItem(KEY); } catch { /* Nothing was kept. */ }
     person = null;
     dirty = false;
