@@ -284,6 +284,19 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
 }
 
 #[test]
+fn annotations_of_one_span_keep_their_values_in_the_list() {
+    let twice = &[(100, 100, "Y"), (100, 100, "X")];
+    let desk = desk(&[&[("G-A", "", twice), ("G-B", "", &[(700, 900, "Z")])]]);
+    let found = agree(&desk.corpus, &AgreeOptions::new("G-A", "G-B"));
+    let sides: Vec<_> = found.list.iter().filter_map(|it| it.a.as_ref()).collect();
+    assert_eq!(sides.len(), 2);
+    for side in sides {
+        let stored = crate::db::tiers::annotation(desk.corpus.store.read(), side.annotation);
+        assert_eq!(stored.expect("stored").value, side.value);
+    }
+}
+
+#[test]
 fn annotations_without_a_value_are_left_out_or_compared_as_spans() {
     let some: &[(i64, i64, &str)] = &[(0, 1000, "X"), (1500, 2000, ""), (2000, 3000, "Y")];
     let none: &[(i64, i64, &str)] = &[(0, 1000, ""), (1500, 2000, "")];

@@ -93,9 +93,9 @@ pub(super) fn read(corpus: &Corpus, options: &AgreeOptions) -> Result<Coded> {
     }
     let sorted = values.sorted();
     let pairs = read.into_iter().map(
-        |(recording, [a, b], annotations, left_out, extent, mut tiers)| {
-            for unit in tiers.iter_mut().flatten() {
-                unit.value = sorted[unit.value];
+        |(recording, [a, b], mut annotations, left_out, extent, mut tiers)| {
+            for (units, rows) in tiers.iter_mut().zip(&mut annotations) {
+                renumber(units, rows, &sorted);
             }
             TierPair {
                 continuum: Continuum::new(extent, tiers),
@@ -141,6 +141,20 @@ fn units(
     all.sort_by_key(|(unit, row)| (*unit, row.id));
     let (units, rows) = all.into_iter().unzip();
     (units, rows, left_out)
+}
+
+/// Gives units the new numbers of their values; units with the same span change their order with them, and their
+/// annotations follow.
+fn renumber(units: &mut Vec<Unit>, rows: &mut Vec<AnnotationRow>, numbers: &[usize]) {
+    let mut all: Vec<(Unit, AnnotationRow)> = std::mem::take(units)
+        .into_iter()
+        .zip(std::mem::take(rows))
+        .collect();
+    for (unit, _) in &mut all {
+        unit.value = numbers[unit.value];
+    }
+    all.sort_by_key(|(unit, row)| (*unit, row.id));
+    (*units, *rows) = all.into_iter().unzip();
 }
 
 /// Returns the time that counts as annotated, in milliseconds.
