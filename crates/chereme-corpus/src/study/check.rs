@@ -6,7 +6,8 @@ use chereme_sign::Remedy;
 use chereme_sign::text::{did_you_mean, nearest};
 
 use super::plan::{
-    ChoiceOption, Comparison, Expectation, PLAN_FORMAT, PLAN_VERSION, Plan, QuestionKind, Selection,
+    ChoiceOption, Comparison, Expectation, PLAN_FORMAT, PLAN_VERSION, Plan, QuestionKind,
+    Selection, Trial,
 };
 use crate::error::{Error, Result};
 
@@ -33,6 +34,7 @@ pub(super) fn read(text: &str, place: &str) -> Result<Plan> {
     if text.len() > LARGEST {
         return Err(wrong("the plan is too large".to_owned()));
     }
+    let text = text.trim_start_matches('\u{feff}');
     let plan: Plan = serde_json::from_str(text)
         .map_err(|error| wrong(format!("the plan cannot be read: {error}")))?;
     check(&plan)?;
@@ -274,11 +276,23 @@ fn hypotheses(plan: &Plan, faults: &mut Faults) {
                 if groups.len() < 2 {
                     faults.add(&place, "at least two groups are compared".to_owned());
                 }
-                for group in groups.iter().filter(|it| !selects(plan, it)) {
+                let own: Vec<Vec<&Trial>> = groups
+                    .iter()
+                    .map(|it| selected(plan, &hypothesis.question, it))
+                    .collect();
+                for (group, _) in groups.iter().zip(&own).filter(|it| it.1.is_empty()) {
                     let names =
                         [&group.parts, &group.items, &group.conditions].map(|it| it.join(" "));
-                    let message = format!("no trial is among {:?}", names.join(" ").trim());
+                    let message = format!(
+                        "{:?} is asked about no trial among {:?}",
+                        hypothesis.question,
+                        names.join(" ").trim()
+                    );
                     faults.add(&place, message);
+                }
+                let twice = (1..own.len()).any(|at| own[..at].contains(&own[at]));
+                if twice && own.iter().all(|it| !it.is_empty()) {
+                    faults.add(&place, "two groups have the same trials".to_owned());
                 }
             }
             Comparison::Measure(name) => {
@@ -296,7 +310,48 @@ fn hypotheses(plan: &Plan, faults: &mut Faults) {
     }
 }
 
-fn selects(plan: &Plan, group: &Selection) -> bool {
-    plan.main()
-        .any(|it| group.holds(&it.part, &it.item, &it.condition))
+/// Returns the analysed trials of a group in which the question is asked.
+fn selected<'a>(plan: &'a Plan, question: &str, group: &Selection) -> Vec<&'a Trial> {
+    let asked = |it: &&Trial| {
+        let holds = group.holds(&it.part, &it.item, &it.condition);
+        holds && plan.asked(it).any(|one| one.name == question)
+    };
+    plan.main().filter(asked).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn groups_without_answers_and_equal_groups_are_faults_of_a_plan() {
+        let text = |groups: &str| {
+            format!(
+                r#"{{"format": "chereme-study", "version": 1, "name": "x",
+                "trials": [{{"item": "A", "condition": "a", "clip": "A", "part": "one"}},
+                           {{"item": "A", "condition": "b", "clip": "A", "part": "one"}},
+                           {{"item": "A", "condition": "a", "clip": "A", "part": "two"}}],
+                "questions": [{{"name": "q", "kind": {{"scale": {{"low": 1, "high": 5}}}}, "parts": ["one"]}},
+                              {{"name": "r", "kind": {{"scale": {{"low": 1, "high": 5}}}}}}],
+                "hypotheses": [{{"name": "H", "question": "q", "compares": {{"between": {groups}}}}}]}}"#
+            )
+        };
+        let good = text(r#"[{"conditions": ["a"]}, {"conditions": ["b"]}]"#);
+        assert!(read(&good, "p.json").is_ok());
+        // Editors may begin a file with a mark of its encoding.
+        assert!(read(&format!("\u{feff}{good}"), "p.json").is_ok());
+        for (groups, message) in [
+            (
+                r#"[{"parts": ["two"]}, {"parts": ["one"]}]"#,
+                "\"q\" is asked about no trial among \"two\"",
+            ),
+            (
+                r#"[{"conditions": ["b", "a"]}, {}]"#,
+                "two groups have the same trials",
+            ),
+        ] {
+            let error = read(&text(groups), "p.json").expect_err(message);
+            assert!(error.to_string().contains(message), "{error}");
+        }
+    }
 }

@@ -125,8 +125,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "on compare au moins deux groupes",
     ),
     (
-        "no trial is among {names}",
-        "aucun essai n’est parmi {names}",
+        "{question} is asked about no trial among {names}",
+        "{question} n’est posée pour aucun essai parmi {names}",
+    ),
+    (
+        "two groups have the same trials",
+        "deux groupes ont les mêmes essais",
     ),
     (
         "people have answered the study {name}, so that its plan cannot change",
