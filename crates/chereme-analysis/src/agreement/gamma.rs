@@ -8,8 +8,9 @@ use super::resample::Interval;
 use super::{Continuum, Measure, Undefined, Unit};
 use crate::random::Random;
 
-/// The most candidate pairs that are compared.
+/// The most pairs that are compared, and the most candidates among them: 4 million take seconds.
 const MOST_PAIRS: usize = 20_000_000;
+const MOST_CANDIDATES: usize = 4_000_000;
 /// The most steps of the search for an alignment of three or more annotators.
 const MOST_STEPS: u64 = 20_000_000;
 
@@ -137,7 +138,7 @@ fn candidates(first: &[Unit], second: &[Unit], costs: &Costs<'_>) -> Result<Edge
     let longest = second.iter().map(Unit::length).max().unwrap_or(0);
     // Of a pair worth its cost, the starts and ends lie together at most this share of both lengths apart.
     let reach = (2.0 / costs.time.max(1e-9)).sqrt();
-    let (mut edges, mut compared) = (Vec::with_capacity(first.len()), 0_usize);
+    let (mut edges, mut compared, mut kept) = (Vec::with_capacity(first.len()), 0_usize, 0_usize);
     for a in first {
         let within = (reach * (a.length() + longest) as f64).ceil() as i64;
         let from = second.partition_point(|b| b.start < a.start.saturating_sub(within));
@@ -148,7 +149,12 @@ fn candidates(first: &[Unit], second: &[Unit], costs: &Costs<'_>) -> Result<Edge
         }
         let near = second[from..to].iter().enumerate();
         let edge = |(at, b)| (from + at, costs.pair(a, b) - both);
-        edges.push(near.map(edge).filter(|(_, cost)| *cost < 0.0).collect());
+        let own: Vec<(usize, f64)> = near.map(edge).filter(|(_, cost)| *cost < 0.0).collect();
+        kept += own.len();
+        if kept > MOST_CANDIDATES {
+            return Err(Undefined::TooMany);
+        }
+        edges.push(own);
     }
     Ok(edges)
 }

@@ -276,3 +276,17 @@ fn recordings_one_after_another_are_one_continuum() {
         [Unit::new(100, 1000, 1), Unit::new(2100, 3000, 1)]
     );
 }
+
+#[test]
+fn very_many_overlapping_units_are_refused_and_as_many_in_a_row_are_aligned() {
+    let tier = |step: i64| -> Vec<Unit> {
+        let unit = |at: i64| Unit::new(at * step, at * step + 10_000, at as usize % 7);
+        (0..2100).map(unit).collect()
+    };
+    let align = |step: i64| {
+        let continuum = Continuum::new((0, 0), vec![tier(step), tier(step)]);
+        align(&continuum, &Costs::default()).map(|it| it.groups.len())
+    };
+    assert_eq!(align(1), Err(Undefined::TooMany));
+    assert_eq!(align(10_000), Ok(2100));
+}
