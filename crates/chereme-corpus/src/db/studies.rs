@@ -67,6 +67,15 @@ pub(crate) fn study(connection: &Connection, name: &str) -> Result<Option<(i64, 
     Ok(found)
 }
 
+/// Returns the row number of a study with that plan.
+pub(crate) fn with_plan(connection: &Connection, sha256: &str) -> Result<Option<i64>> {
+    let found = connection
+        .prepare_cached("SELECT id FROM study WHERE plan_sha256 = ?1 ORDER BY id LIMIT 1")?
+        .query_row([sha256], |row| row.get(0))
+        .optional()?;
+    Ok(found)
+}
+
 /// Returns the name, with a number after it if a study has it already.
 pub(crate) fn free_name(connection: &Connection, name: &str) -> Result<String> {
     let mut free = name.to_owned();

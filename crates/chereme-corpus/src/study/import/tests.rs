@@ -317,6 +317,64 @@ fn a_merge_keeps_studies_and_people_apart_that_only_share_a_name() {
 }
 
 #[test]
+fn a_merge_does_not_mix_answers_to_two_versions_of_a_plan() {
+    // What each side does after the copy: plan anew, or not.
+    for (mine_anew, theirs_anew) in [(true, true), (true, false), (false, true)] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (mine, plan) = corpus(folder.path());
+        let (path, other) = (mine.path().to_owned(), folder.path().join("other.chereme"));
+        drop(mine);
+        fs::copy(&path, &other).expect("copied");
+        let one = answer(1, "BOL", "captured", "places");
+        let side = |path: &Path, code: &str, anew: bool, seed: u64| {
+            let mut corpus = Corpus::open(path, "A").expect("opened");
+            let mut own = plan.clone();
+            if anew {
+                own.design.seed = seed;
+                let stored = corpus.store.operation("plan study", |connection| {
+                    let study = stored::study(connection, "bowls")?.expect("a study");
+                    db::replace(connection, study.id, &stored::row(&own))?;
+                    Ok(((), String::new()))
+                });
+                stored.expect("stored");
+            }
+            let mut content = file(&own, code, true, std::slice::from_ref(&one));
+            content["plan_sha256"] = json!(corpus.study("bowls").expect("a study").plan_sha256);
+            import(
+                &mut corpus,
+                &write(folder.path(), &format!("{code}.json"), &content),
+            );
+            corpus
+        };
+        let mut mine = side(&path, "a", mine_anew, 7);
+        for (merges, codes) in [(1, ["b"].as_slice()), (2, &["b", "c"])] {
+            let anew = theirs_anew && merges == 1;
+            let corpus = side(&other, codes[merges - 1], anew, 8);
+            let theirs = corpus.study("bowls").expect("a study");
+            drop(corpus);
+            let mut hear = unheard;
+            let report = mine
+                .merge(&other, None, &mut Progress::new(&mut hear))
+                .expect("merged");
+            assert!(report.conflicts.is_empty(), "{report:?}");
+            let of = |name: &str| {
+                let study = mine.study(name).expect(name);
+                let codes = study.participants.into_iter().map(|it| it.code);
+                (study.plan_sha256, codes.collect::<Vec<_>>())
+            };
+            assert_eq!(of("bowls").1, ["a"], "{mine_anew} {theirs_anew}");
+            assert_eq!(
+                of("bowls (2)"),
+                (
+                    theirs.plan_sha256,
+                    codes.iter().map(|it| (*it).to_owned()).collect()
+                )
+            );
+        }
+    }
+}
+
+#[test]
 fn what_does_not_fit_the_plan_is_left_out_with_a_finding() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mut corpus, plan) = corpus(folder.path());
