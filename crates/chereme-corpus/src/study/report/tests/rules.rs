@@ -135,8 +135,8 @@ fn few_people_or_equal_answers_show_no_sameness() {
     );
     let people = |count: usize, spread: usize| -> Vec<_> {
         let answers = |n: usize| {
-            let value = 3 + (n % 4 == 0) as i64 * spread as i64;
-            let other = value - (n % 8 == 0) as i64 * spread as i64;
+            let value = 3 + i64::from(n.is_multiple_of(4)) * spread as i64;
+            let other = value - i64::from(n.is_multiple_of(8)) * spread as i64;
             [rated("", "CAT", "a", value), rated("", "CAT", "b", other)]
         };
         (0..count).map(|n| person(n, "", &answers(n))).collect()
