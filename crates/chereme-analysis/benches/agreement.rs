@@ -14,7 +14,7 @@ fn main() {
     divan::main();
 }
 
-/// Returns two tiers of signs of half a second, of which one in ten has another value or lies apart.
+/// Returns two tiers of signs of half a second; one sign in ten has another value or lies apart.
 fn tiers() -> Continuum {
     let mut random = Random::new(7);
     let (mut first, mut second, mut end) = (Vec::new(), Vec::new(), 0);

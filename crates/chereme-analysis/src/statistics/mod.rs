@@ -1,6 +1,6 @@
-//! Statistics of ratings and choices: what a perceptual study needs, for answers with few values and many ties.
+//! Statistics of ratings and choices in perceptual studies, for answers with few values and many ties.
 //!
-//! Every function takes plain numbers and is pure. What has no value is [`Undefined`], with the reason; no function
+//! Every function takes plain numbers and is pure. A statistic without a value is [`Undefined`], with the reason; no function
 //! returns a NaN, and none accepts one: leave such values out, and count them.
 //!
 //! | for | use |

@@ -303,7 +303,8 @@ fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
 /// Returns the value of a measure, or the reason why it has none.
 fn value(figure: &Figure, output: &Output) -> String {
     match (figure.value, &figure.why) {
-        (Some(value), _) => format!("{value:.3}"),
+        // Adding 0 turns a rounded -0 into 0.
+        (Some(value), _) => format!("{:.3}", (1e3 * value).round() / 1e3 + 0.0),
         (None, Some(why)) => format!("- ({})", output.spoken(why)),
         (None, None) => String::new(),
     }

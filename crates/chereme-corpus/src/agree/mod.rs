@@ -198,7 +198,7 @@ pub struct Agreement {
 }
 
 impl Corpus {
-    /// Compares two tiers in every recording that has both: how far they agree, by which measure, on which values they
+    /// Compares two tiers in every recording that has both. Returns the measures of agreement, the values on which they
     /// differ, and where.
     ///
     /// Times are rounded to milliseconds. Annotations without a value are left out, unless nobody gave a value: then the

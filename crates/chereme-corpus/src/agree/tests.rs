@@ -260,6 +260,13 @@ fn tiers_are_named_by_name_pattern_annotator_and_number() {
         (AgreeOptions::new("G-A", "G-A"), "itself"),
         (
             AgreeOptions {
+                recording: Some(Name::Text("two".into())),
+                ..AgreeOptions::new("tier:1", "tier:5")
+            },
+            "no recording has both",
+        ),
+        (
+            AgreeOptions {
                 share: 0.4,
                 ..AgreeOptions::new("G-A", "G-B")
             },

@@ -283,6 +283,12 @@ fn named(
     let (a, b) = (Wanted::read(&options.a), Wanted::read(&options.b));
     if let (Wanted::Tier(a), Wanted::Tier(b)) = (&a, &b) {
         let (a, b) = (rows::tier(connection, *a)?, rows::tier(connection, *b)?);
+        if let Some(name) = &options.recording {
+            let only = address::recording(connection, name)?.id;
+            if a.recording_id != only || b.recording_id != only {
+                return Err(no_pair(options, &BTreeSet::new()));
+            }
+        }
         let recording = recordings::recording(connection, a.recording_id)?;
         return apart(vec![(recording, a, b)], options);
     }

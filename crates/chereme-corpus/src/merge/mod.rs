@@ -417,7 +417,7 @@ impl Work<'_> {
         Ok(changed(own) || studies::participant_count(self.connection, id)? > 0)
     }
 
-    /// Returns the study of this side with the other side's plan; it is added under a free name if there is none.
+    /// Returns the study of this side with the other side's plan; it is added under a free name if this side has none.
     fn beside(&mut self, theirs: &Image) -> Result<i64> {
         let text = |column: &str| theirs[column].as_str().unwrap_or_default().to_owned();
         let mut study = studies::StudyRow {

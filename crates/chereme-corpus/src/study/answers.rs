@@ -38,7 +38,7 @@ pub struct Participant {
     /// The window.
     #[serde(default)]
     pub device: Device,
-    /// What the participant agreed to, by name: `analysis`, `publication`.
+    /// The uses that the participant agreed to, by name: `analysis`, `publication`.
     #[serde(default)]
     pub consent: BTreeMap<String, bool>,
     /// The answers about the participant, an option by the name of the question; skipped ones are missing.
@@ -75,11 +75,11 @@ pub struct Answer {
     /// The part of the study.
     #[serde(default)]
     pub part: String,
-    /// What was signed.
+    /// The sign or sentence that was shown.
     pub item: String,
     /// How it was made.
     pub condition: String,
-    /// What the answer is for.
+    /// The use of the answer.
     #[serde(default)]
     pub role: Role,
     /// The name of the question.

@@ -273,7 +273,7 @@ fn alike(plan: &Plan, films: &BTreeMap<usize, String>) -> Vec<[String; 2]> {
     pairs.into_iter().collect()
 }
 
-/// Returns the page. What participants should not be led by, such as right answers, hypotheses and recipes, is not in it.
+/// Returns the page. It holds no right answers, hypotheses or recipes, because they would lead participants.
 fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown>]) -> String {
     let plan = &study.plan;
     let trials: Vec<serde_json::Value> = plan

@@ -1,4 +1,4 @@
-//! Whether answers fit the plan: what does not is left out.
+//! Checks of answers against the plan; answers that do not fit are left out.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -207,7 +207,7 @@ fn is_code(text: &str) -> bool {
         && text.chars().all(plain)
 }
 
-/// Returns a day as `2026-11-27`; nothing if it is none.
+/// Returns a day as `2026-11-27`; `None` if the text is no day.
 pub(super) fn day(text: &str) -> String {
     let digits = |text: &str| text.bytes().all(|it| it.is_ascii_digit());
     let parts: Vec<&str> = text.split('-').collect();

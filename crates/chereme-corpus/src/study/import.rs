@@ -115,7 +115,7 @@ impl Corpus {
     }
 }
 
-/// What became of a participant.
+/// The outcome of the import for a participant.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Became {
     Added,

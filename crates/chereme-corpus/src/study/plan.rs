@@ -1,4 +1,4 @@
-//! The plan of a perceptual study: what is shown, what is asked, in which order, and what is to be found out.
+//! The plan of a perceptual study: its trials, questions, order and hypotheses.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +27,7 @@ pub struct Plan {
     /// Its title.
     #[serde(default)]
     pub title: Texts,
-    /// What participants read before they agree.
+    /// The text that participants read before they agree.
     #[serde(default)]
     pub consent: Consent,
     /// The trials, in the order of the plan; participants see the main ones in an order of their own.
@@ -40,7 +40,7 @@ pub struct Plan {
     /// The order of trials.
     #[serde(default)]
     pub design: Design,
-    /// The participants whose answers are analysed; all if there is none.
+    /// The participants whose answers are analysed; all without it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub analysed: Option<Filter>,
     /// The hypotheses, written before the first answer.
@@ -51,7 +51,7 @@ pub struct Plan {
     pub exclusions: Vec<Exclusion>,
 }
 
-/// What participants read before they agree.
+/// The text that participants read before they agree.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Consent {
@@ -67,13 +67,13 @@ pub struct Consent {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Trial {
-    /// What is signed, such as a gloss; the same in all conditions.
+    /// The sign or sentence that is shown, such as a gloss; the same in all conditions.
     pub item: String,
     /// How it was made, such as `captured`.
     pub condition: String,
     /// The address or recipe of the movement, as text.
     pub clip: String,
-    /// What the answers are for.
+    /// The use of its answers.
     #[serde(default, skip_serializing_if = "is_main")]
     pub role: Role,
     /// The part of the study that the trial belongs to; parts follow each other in the order of the plan.
@@ -88,7 +88,7 @@ pub struct Trial {
     pub measures: BTreeMap<String, f64>,
 }
 
-/// What the answers of a trial are for.
+/// The use of the answers of a trial.
 #[derive(
     Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize,
 )]
@@ -136,7 +136,7 @@ fn is_main(role: &Role) -> bool {
 pub struct Question {
     /// Its name in answers and reports, such as `realism`.
     pub name: String,
-    /// What participants read.
+    /// The text that participants read.
     #[serde(default)]
     pub text: Texts,
     /// The possible answers.
@@ -179,7 +179,7 @@ pub enum QuestionKind {
 pub struct ChoiceOption {
     /// Its name in answers and reports.
     pub name: String,
-    /// What participants read; its name if there is no text.
+    /// The text that participants read; without it, its name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub text: Texts,
     /// A picture in the folder `media`, shown above the text.
@@ -208,7 +208,7 @@ fn is_first(after: &Viewing) -> bool {
 pub struct ProfileQuestion {
     /// Its name in answers and reports, such as `level`.
     pub name: String,
-    /// What participants read.
+    /// The text that participants read.
     #[serde(default)]
     pub text: Texts,
     /// The options, in their order: of a level, from the lowest.
@@ -296,9 +296,9 @@ pub struct Hypothesis {
     pub text: Texts,
     /// The name of the question that it is about.
     pub question: String,
-    /// What is compared.
+    /// The groups that it compares.
     pub compares: Comparison,
-    /// What is expected of it.
+    /// The expected result.
     #[serde(default)]
     pub expects: Expectation,
     /// The level of significance.
@@ -310,7 +310,7 @@ fn usual_alpha() -> f64 {
     0.05
 }
 
-/// What a hypothesis compares.
+/// The groups that a hypothesis compares.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Comparison {
@@ -322,7 +322,7 @@ pub enum Comparison {
     Measure(String),
 }
 
-/// What a hypothesis expects.
+/// The result that a hypothesis expects.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Expectation {

@@ -18,7 +18,7 @@ use crate::error::{Error, Result};
 pub struct StudyRequest {
     /// The name of the study.
     pub name: String,
-    /// Its title; its name if there is none.
+    /// Its title; without one, its name.
     pub title: Option<String>,
     /// The items, one trial for each and each condition.
     pub items: Vec<String>,
@@ -224,7 +224,7 @@ impl Listed {
     }
 }
 
-/// Fills in the right answers of a trial: those of its row, or else its item where that is an option.
+/// Fills in the right answers of a trial: those of its row, or else its item if that is an option.
 fn answer(listed: &mut Listed, questions: &[Question]) -> Result<()> {
     let part = &listed.trial.part;
     let mut used = false;

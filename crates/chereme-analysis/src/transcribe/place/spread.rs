@@ -16,7 +16,7 @@ pub(super) enum Free {
     Between,
 }
 
-/// What a hand touches or should touch.
+/// The thing that a hand touches or should touch.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Touched {
     Trunk,

@@ -1,4 +1,4 @@
-//! `chereme study report`: what the answers say.
+//! `chereme study report`: prints and writes the results of a study.
 
 use std::path::PathBuf;
 

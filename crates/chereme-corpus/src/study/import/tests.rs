@@ -318,18 +318,18 @@ fn a_merge_keeps_studies_and_people_apart_that_only_share_a_name() {
 
 #[test]
 fn a_merge_does_not_mix_answers_to_two_versions_of_a_plan() {
-    // What each side does after the copy: plan anew, or not.
-    for (mine_anew, theirs_anew) in [(true, true), (true, false), (false, true)] {
+    // After the copy each side does this: write a plan again, or not.
+    for (mine_planned, theirs_planned) in [(true, true), (true, false), (false, true)] {
         let folder = tempfile::tempdir().expect("a folder");
         let (mine, plan) = corpus(folder.path());
         let (path, other) = (mine.path().to_owned(), folder.path().join("other.chereme"));
         drop(mine);
         fs::copy(&path, &other).expect("copied");
         let one = answer(1, "BOL", "captured", "places");
-        let side = |path: &Path, code: &str, anew: bool, seed: u64| {
+        let side = |path: &Path, code: &str, planned: bool, seed: u64| {
             let mut corpus = Corpus::open(path, "A").expect("opened");
             let mut own = plan.clone();
-            if anew {
+            if planned {
                 own.design.seed = seed;
                 let stored = corpus.store.operation("plan study", |connection| {
                     let study = stored::study(connection, "bowls")?.expect("a study");
@@ -346,10 +346,10 @@ fn a_merge_does_not_mix_answers_to_two_versions_of_a_plan() {
             );
             corpus
         };
-        let mut mine = side(&path, "a", mine_anew, 7);
+        let mut mine = side(&path, "a", mine_planned, 7);
         for (merges, codes) in [(1, ["b"].as_slice()), (2, &["b", "c"])] {
-            let anew = theirs_anew && merges == 1;
-            let corpus = side(&other, codes[merges - 1], anew, 8);
+            let planned = theirs_planned && merges == 1;
+            let corpus = side(&other, codes[merges - 1], planned, 8);
             let theirs = corpus.study("bowls").expect("a study");
             drop(corpus);
             let mut hear = unheard;
@@ -362,7 +362,7 @@ fn a_merge_does_not_mix_answers_to_two_versions_of_a_plan() {
                 let codes = study.participants.into_iter().map(|it| it.code);
                 (study.plan_sha256, codes.collect::<Vec<_>>())
             };
-            assert_eq!(of("bowls").1, ["a"], "{mine_anew} {theirs_anew}");
+            assert_eq!(of("bowls").1, ["a"], "{mine_planned} {theirs_planned}");
             assert_eq!(
                 of("bowls (2)"),
                 (

@@ -79,7 +79,7 @@ pub struct Resampling {
     pub level: f64,
 }
 
-/// A result, or the reason why there is none.
+/// A result, or the reason why it is undefined.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Outcome<T> {
@@ -273,7 +273,7 @@ pub struct Compared {
     pub hypothesis: Option<Stated>,
     /// The name of the question.
     pub question: String,
-    /// The part of the study to which all groups belong; empty if there is none.
+    /// The part of the study to which all groups belong; empty if they belong to several.
     pub part: String,
     /// The direction of the tests.
     pub side: Alternative,
@@ -296,7 +296,7 @@ pub struct Stated {
     pub name: String,
     /// The statement in words.
     pub text: Texts,
-    /// What is expected.
+    /// The expected result.
     pub expects: Expectation,
     /// The level of significance.
     pub alpha: f64,
@@ -305,7 +305,7 @@ pub struct Stated {
 /// One group of a comparison.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct GroupSummary {
-    /// What it holds, such as `captured` or `cat, captured`.
+    /// Its conditions and items, such as `captured` or `cat, captured`.
     pub label: String,
     /// How many people answered.
     pub people: usize,
@@ -448,7 +448,7 @@ pub struct MeasurePoint {
     pub mean: f64,
 }
 
-/// What the answers say about a hypothesis.
+/// The conclusion about a hypothesis.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Conclusion {
     /// Whether they support it.

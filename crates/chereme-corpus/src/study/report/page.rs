@@ -151,7 +151,7 @@ impl Page<'_> {
         self.put("</div>");
     }
 
-    /// Returns what a hypothesis expects, of which groups, and its level.
+    /// Returns the text of a hypothesis: its groups, the expected result and its level.
     fn expectation(&self, compared: &Compared, stated: &Stated) -> String {
         let alpha = number(stated.alpha, 3, self.language);
         let alpha = alpha.trim_end_matches('0').trim_end_matches(['.', ',']);
