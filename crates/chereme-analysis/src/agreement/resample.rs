@@ -1,6 +1,7 @@
 //! Percentile intervals by the bootstrap (Efron 1979), from a seed.
 
 use crate::random::Random;
+use crate::statistics::quantile;
 
 /// An interval that holds 95 of 100 draws.
 #[derive(Debug, Clone, Copy, PartialEq, serde::Serialize)]
@@ -19,24 +20,13 @@ impl Interval {
     pub fn of(mut draws: Vec<f64>) -> Option<Self> {
         draws.retain(|it| it.is_finite());
         draws.sort_by(f64::total_cmp);
-        (draws.len() > 1).then(|| Self {
-            low: quantile(&draws, 0.025),
-            high: quantile(&draws, 0.975),
+        let [low, high] = [0.025, 0.975].map(|level| quantile(&draws, level).ok());
+        (draws.len() > 1).then_some(Self {
+            low: low?,
+            high: high?,
             draws: draws.len(),
         })
     }
-}
-
-/// Returns a quantile of sorted numbers, linear between two of them; 0 if there are no numbers.
-#[must_use]
-pub fn quantile(sorted: &[f64], share: f64) -> f64 {
-    let Some(last) = sorted.len().checked_sub(1) else {
-        return 0.0;
-    };
-    let at = share.clamp(0.0, 1.0) * last as f64;
-    let (low, part) = (at.floor() as usize, at.fract());
-    let high = (low + 1).min(last);
-    sorted[low] + (sorted[high] - sorted[low]) * part
 }
 
 /// Draws `count` of `count` things with replacement, `draws` times, and hands the places of the drawn ones to `each`.
