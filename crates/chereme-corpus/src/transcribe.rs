@@ -212,8 +212,8 @@ impl Corpus {
         })
     }
 
-    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation. Non-manual tiers of
-    /// its notation so far, or of that from which it was generated, are kept unless the transcription has others.
+    /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation. Keeps the
+    /// non-manual tiers of its present notation, or of the notation that generated it, unless the transcription has others.
     ///
     /// # Errors
     /// As [`transcribe`](Self::transcribe). Also fails if the address names no token, or if the token has another

@@ -142,8 +142,8 @@ pub struct Friedman {
     pub p: f64,
     /// Kendall's W, the agreement of people's orders, from 0 to 1.
     pub w: f64,
-    /// The statistic in the form of Iman and Davenport (1980) and its p; nothing if all orders are the same, where it
-    /// is infinite.
+    /// The statistic in the form of Iman and Davenport (1980) and its p; nothing if all orders are the same, because it
+    /// is infinite then.
     pub f: Option<(f64, f64)>,
     /// The mean rank of each condition.
     pub mean_ranks: Vec<f64>,

@@ -19,7 +19,7 @@ pub(super) use french::WORDS;
 /// Measure how far two annotators agree, on which values they differ, and where
 ///
 /// Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, "*-A" and "*-B",
-/// whose star stands for the same text in both; by annotator:NAME, of which those tiers are compared that describe the
+/// whose star stands for the same text in both; by annotator:NAME, for the tiers of both people that describe the
 /// same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the
 /// spans alone are compared.
 ///

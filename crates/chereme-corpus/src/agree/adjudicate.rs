@@ -153,7 +153,7 @@ impl Corpus {
                 tier: into.to_owned(),
             };
             let (first, second) = sides(&pair.continuum);
-            for group in groups(pair, &costs) {
+            for group in groups(pair, &costs).0 {
                 let [a, b] = [
                     group.first().copied().flatten(),
                     group.get(1).copied().flatten(),

@@ -140,10 +140,11 @@ impl Distances {
     }
 }
 
-/// Returns the units that belong together, by gamma's alignment; by overlap if too many units overlap to align them.
-pub(super) fn groups(pair: &TierPair, costs: &Costs<'_>) -> Vec<Aligned> {
+/// Returns the units that belong together, and whether gamma's alignment found them; if too many units overlap to be
+/// aligned, they are matched by overlap.
+pub(super) fn groups(pair: &TierPair, costs: &Costs<'_>) -> (Vec<Aligned>, bool) {
     if let Ok(found) = align(&pair.continuum, costs) {
-        return found.groups;
+        return (found.groups, true);
     }
     let (first, second) = sides(&pair.continuum);
     let pairs = matched(first, second, SHARE);
@@ -156,14 +157,16 @@ pub(super) fn groups(pair: &TierPair, costs: &Costs<'_>) -> Vec<Aligned> {
     let alone = |used: Vec<bool>| used.into_iter().enumerate().filter(|(_, used)| !used);
     groups.extend(alone(of_a).map(|(a, _)| vec![Some(a), None]));
     groups.extend(alone(of_b).map(|(b, _)| vec![None, Some(b)]));
-    groups
+    (groups, false)
 }
 
-/// Returns the disagreements, the costliest first, then by recording and time.
+/// Returns the disagreements, the costliest first, then by recording and time; adds a finding for each recording whose
+/// units are matched by overlap.
 pub(super) fn list(
     coded: &Coded,
     distances: &Distances,
     options: &AgreeOptions,
+    findings: &mut Vec<String>,
 ) -> Vec<Disagreement> {
     let distance = |a: usize, b: usize| distances.between(a, b);
     let costs = Costs {
@@ -172,7 +175,14 @@ pub(super) fn list(
     };
     let mut all = Vec::new();
     for pair in &coded.pairs {
-        for group in groups(pair, &costs) {
+        let (groups, aligned) = groups(pair, &costs);
+        if !aligned {
+            findings.push(format!(
+                "too many units of {:?} overlap to be aligned: its disagreements are those of units matched by overlap",
+                pair.recording.name
+            ));
+        }
+        for group in groups {
             all.extend(disagreement(pair, &group, coded, (&costs, options)));
         }
     }

@@ -225,7 +225,8 @@ pub(super) fn agreement(
     let place = |name: &str| MEASURES.iter().position(|it| *it == name);
     figures.sort_by_key(|(name, _)| place(name));
     let distances = Distances::of(coded);
-    let list = list(coded, &distances, options);
+    let mut findings = coded.findings.clone();
+    let list = list(coded, &distances, options, &mut findings);
     let moved = |of: fn(&Unit) -> i64| {
         let apart = |it: &Matched<'_>| -> Vec<f64> {
             let pairs = it.pairs.iter();
@@ -235,7 +236,6 @@ pub(super) fn agreement(
         };
         Quartiles::of(all.iter().flat_map(apart).collect())
     };
-    let mut findings = coded.findings.clone();
     if counts.left_out_a + counts.left_out_b > 0 {
         findings.push(format!(
             "annotations without a value are left out: {} of {:?}, {} of {:?}",
@@ -468,7 +468,8 @@ fn add_intervals(
             ("alpha_u", alpha_u(&Continuum::joined(&again)))
         });
         for (name, measure) in of_table(&table, values).into_iter().chain(alpha) {
-            if let Ok(value) = measure {
+            // Draws of a maximum over margins lie below it, so that their percentiles can miss it.
+            if let (true, Ok(value)) = (name != "kappa_max", measure) {
                 drawn.entry(name).or_default().push(value);
             }
         }

@@ -113,7 +113,7 @@ fn counts_values_and_disagreements_of_a_case_by_hand() {
     assert_eq!((counts.matched, counts.equal), (4, 3));
     assert_eq!((counts.unmatched_a, counts.unmatched_b), (1, 1));
     assert!(found.counts_only, "five units are few");
-    // 3 equal pairs of 10 annotations, two each; 4 pairs, of which 3 are equal.
+    // 3 equal pairs of 10 annotations, two each; 4 pairs, 3 of them equal.
     assert_eq!(figure(&found, "raw"), Some(0.6));
     assert_eq!(figure(&found, "label_raw"), Some(0.75));
     assert_eq!(figure(&found, "matched"), Some(0.8));
@@ -188,6 +188,14 @@ fn the_same_seed_gives_the_same_document_and_stopping_stops() {
     let interval = found.measures[0].1.interval.expect("an interval");
     let kappa = found.measures[0].1.value.expect("kappa");
     assert!(interval.low < kappa && kappa < interval.high && interval.of == "units");
+    for (name, own) in &found.measures {
+        let holds = own
+            .interval
+            .zip(own.value)
+            .is_none_or(|(it, value)| it.low <= value && value <= it.high);
+        assert!(holds, "{name}: {own:?}");
+        assert!(name != &"kappa_max" || own.interval.is_none());
+    }
     let turned = AgreeOptions {
         a: "B".into(),
         b: "A".into(),

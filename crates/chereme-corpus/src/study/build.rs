@@ -12,6 +12,7 @@ use sha2::{Digest, Sha256};
 use super::plan::{Plan, QuestionKind, text_in};
 use super::{Study, order};
 use crate::Corpus;
+use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::film::{Shape, write_film};
 use crate::picture::write;
@@ -313,10 +314,6 @@ fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown
         });
     }
     page
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|byte| format!("{byte:02x}")).collect()
 }
 
 /// Returns bytes in base64 (RFC 4648, section 4), as policies for content write hashes.

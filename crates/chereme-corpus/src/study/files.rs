@@ -26,7 +26,12 @@ pub(super) fn listed(path: &Path, depth: usize, files: &mut Vec<PathBuf>) -> Res
     let fault = |error| Error::file(path, error);
     if !fs::metadata(path).map_err(fault)?.is_dir() {
         files.push(path.to_owned());
-    } else if depth < DEEPEST {
+    } else if depth == DEEPEST {
+        let message = format!("folders lie more than {DEEPEST} deep inside each other");
+        return Err(Error::wrong(message)
+            .at(legible(path))
+            .advise("name the folder that holds the answers"));
+    } else {
         let mut inside = Vec::new();
         for entry in fs::read_dir(path).map_err(fault)? {
             let entry = entry.map_err(fault)?;

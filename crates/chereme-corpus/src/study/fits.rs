@@ -207,7 +207,7 @@ fn is_code(text: &str) -> bool {
         && text.chars().all(plain)
 }
 
-/// Returns a day as `2026-11-27`; `None` if the text is no day.
+/// Returns a day as `2026-11-27`; an empty text if `text` is no day.
 pub(super) fn day(text: &str) -> String {
     let digits = |text: &str| text.bytes().all(|it| it.is_ascii_digit());
     let parts: Vec<&str> = text.split('-').collect();

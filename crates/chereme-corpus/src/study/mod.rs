@@ -1,4 +1,4 @@
-//! Perceptual studies: what people see in signs.
+//! Perceptual studies: questionnaires that show signs to people, their answers, and reports.
 //!
 //! A study begins with a [plan](plan::Plan): trials, questions, an order. It is built into a questionnaire, a folder that
 //! works without a network; the answers that participants send back are imported, and stay with the plan in the corpus.

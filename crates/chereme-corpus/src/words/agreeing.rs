@@ -17,6 +17,10 @@ pub(super) const AGREEING: &[(&str, &str)] = &[
     ),
     ("too many units overlap", "trop d’unités se chevauchent"),
     (
+        "too many units of {recording} overlap to be aligned: its disagreements are those of units matched by overlap",
+        "trop d’unités de {recording} se chevauchent pour être alignées : ses désaccords sont ceux des unités appariées par recouvrement",
+    ),
+    (
         "no annotation has a value, so only spans are compared",
         "aucune annotation n’a de valeur : seules les durées sont comparées",
     ),

@@ -247,6 +247,14 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "les réponses sont des fichiers qui finissent par .json ou .csv",
     ),
     (
+        "folders lie more than {n} deep inside each other",
+        "des dossiers sont emboîtés sur plus de {n} niveaux",
+    ),
+    (
+        "name the folder that holds the answers",
+        "nommez le dossier qui contient les réponses",
+    ),
+    (
         "there are more than {n} files",
         "il y a plus de {n} fichiers",
     ),

@@ -10,7 +10,7 @@ pub(in crate::commands) const WORDS: Words = Words {
             "Mesurer l’accord de deux annotateurs, sur quelles valeurs ils diffèrent, et où",
         ),
         (
-            "Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, \"*-A\" and \"*-B\", whose star stands for the same text in both; by annotator:NAME, of which those tiers are compared that describe the same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the spans alone are compared.",
+            "Two tiers are compared in every recording that has both. A tier is named by its name; by a pattern, \"*-A\" and \"*-B\", whose star stands for the same text in both; by annotator:NAME, for the tiers of both people that describe the same; or by tier:12, also of two recordings. Annotations without a value are left out; if nobody gave a value, the spans alone are compared.",
             "Deux acteurs sont comparés dans chaque enregistrement qui a les deux. Un acteur se nomme par son nom ; par un motif, « *-A » et « *-B », où l’étoile est le même texte des deux côtés ; par annotator:NOM, et les acteurs qui décrivent la même chose sont comparés ; ou par tier:12, même de deux enregistrements. Les annotations sans valeur sont laissées de côté ; si personne n’a donné de valeur, seules les durées sont comparées.",
         ),
         (

@@ -224,6 +224,27 @@ fn a_folder_gives_the_files_that_its_links_lead_to() {
 }
 
 #[test]
+fn folders_that_lie_too_deep_are_refused_rather_than_left_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut corpus, plan) = corpus(folder.path());
+    let one = answer(1, "BOL", "captured", "places");
+    let content = file(&plan, "p", true, std::slice::from_ref(&one));
+    let top = folder.path().join("answers");
+    for (depth, taken) in [(7, true), (8, false)] {
+        let inside = (0..depth).fold(top.clone(), |it, _| it.join("in"));
+        fs::create_dir_all(&inside).expect("made");
+        write(&inside, "p.json", &content);
+        let mut hear = unheard;
+        let found = corpus.import_answers(
+            "bowls",
+            std::slice::from_ref(&top),
+            &mut Progress::new(&mut hear),
+        );
+        assert_eq!(found.is_ok(), taken, "{depth}: {found:?}");
+    }
+}
+
+#[test]
 fn a_merge_brings_the_participants_of_both_sides_and_the_studies_of_the_other() {
     let folder = tempfile::tempdir().expect("a folder");
     let (mine, plan) = corpus(folder.path());

@@ -158,10 +158,10 @@ function welcome() {
     if (found) proceed(found); else fault.textContent = t("fileWrong");
   } });
   const labelled = (input) => el("label", { class: "check" }, input, el("span", {}, t(input.id)));
-  const told = (name) => said(data.consent[name]) && el("section", {}, el("h2", {}, t(name)), el("p", {}, said(data.consent[name])));
+  const section = (name) => said(data.consent[name]) && el("section", {}, el("h2", {}, t(name)), el("p", {}, said(data.consent[name])));
   show(
     el("h1", {}, t("welcome")), signed("consent"),
-    el("p", {}, said(data.consent.purpose, t("purpose"))), el("p", {}, t("private")), told("kept"), told("contact"),
+    el("p", {}, said(data.consent.purpose, t("purpose"))), el("p", {}, t("private")), section("kept"), section("contact"),
     el("div", { class: "card" },
       labelled(adult), labelled(analysis), labelled(publication), el("p", {}, t("stop")),
       el("label", { for: "code", class: "name" }, t("code")), code, el("p", { id: "why", class: "quiet" }, t("codeWhy"))),

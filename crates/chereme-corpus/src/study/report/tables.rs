@@ -53,6 +53,11 @@ impl Report {
         for (name, table) in tables {
             files.push((name, csv_of(&table)?));
         }
+        // Nothing is written if a file is there already.
+        let mut there = files.iter().map(|(name, _)| to.join(name));
+        if let Some(path) = there.find(|path| !force && path.exists()) {
+            return Err(Error::file(path, std::io::ErrorKind::AlreadyExists.into()));
+        }
         let mut written = Vec::with_capacity(files.len());
         for (name, bytes) in files {
             let path = to.join(name);

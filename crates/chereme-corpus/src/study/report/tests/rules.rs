@@ -256,9 +256,14 @@ fn files_are_written_together_and_not_over_others() {
         (rows.len(), &rows[0][6], &rows[0][13]),
         (1, "mann-whitney", "wilcoxon")
     );
+    std::fs::remove_file(folder.join("report.html")).expect("removed");
     assert!(
         found.write(&folder, false, Language::English).is_err(),
         "nothing is replaced"
+    );
+    assert!(
+        !folder.join("report.html").exists(),
+        "nor written beside what is there"
     );
     found
         .write(&folder, true, Language::English)
