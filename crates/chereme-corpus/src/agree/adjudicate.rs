@@ -125,6 +125,19 @@ impl Corpus {
                 .at(pair.recording.name.as_str())
                 .advise("name one pair of tiers"));
             }
+            let is_instant = |row: &&AnnotationRow| row.start_us >= row.end_us;
+            for (tier, rows) in [&pair.a, &pair.b].into_iter().zip(&pair.annotations) {
+                if let Some(row) = rows.iter().find(is_instant) {
+                    let message = format!(
+                        "the annotation {:?} at {:.3} s has no length, so it cannot go onto a third tier",
+                        row.value,
+                        row.start_us as f64 * 1e-6
+                    );
+                    return Err(Error::wrong(message)
+                        .at(format!("{}, {}", pair.recording.name, tier.name))
+                        .advise("give it an end after its start, or delete it, then adjudicate"));
+                }
+            }
             let recording = Name::Number(pair.recording.id);
             let mut tier = NewTier::new(recording.clone(), into, pair.a.role.clone());
             tier.hand = pair.a.hand;

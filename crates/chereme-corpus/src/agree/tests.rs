@@ -484,6 +484,23 @@ fn a_third_tier_holds_agreements_and_conflicts_wait_for_decisions() {
 }
 
 #[test]
+fn an_annotation_without_length_is_named_before_a_third_tier_is_begun() {
+    let units: &[(i64, i64, &str)] = &[(0, 1000, "X"), (2000, 2000, "Y")];
+    let whole: &[(i64, i64, &str)] = &[(0, 1000, "X"), (2000, 2500, "Y")];
+    for (a, b, place) in [(units, whole, "one, A"), (whole, units, "one, B")] {
+        let mut desk = desk(&[&[("A", "", a), ("B", "", b)]]);
+        let mut hear = unheard;
+        let options = AgreeOptions::new("A", "B");
+        let progress = &mut Progress::new(&mut hear);
+        let error = desk.corpus.adjudicate(&options, "C", progress);
+        let error = error.expect_err("refused");
+        assert!(error.to_string().contains("\"Y\" at 2.000 s"), "{error}");
+        assert_eq!(error.place().as_deref(), Some(place));
+        assert!(said(&desk.corpus, "C").is_empty());
+    }
+}
+
+#[test]
 fn the_table_of_disagreements_has_a_row_for_each() {
     let desk = desk(&[&[("A", "", A), ("B", "", B)]]);
     let found = agree(&desk.corpus, &AgreeOptions::new("A", "B"));

@@ -47,6 +47,10 @@ pub struct Participant {
     /// Whether the questionnaire was answered to its end.
     #[serde(default)]
     pub finished: bool,
+    /// The trials, by their places in the participant's order, whose films the browser could not show. Import reports them;
+    /// they are not stored.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub skipped: Vec<u32>,
     /// The answers, in the order in which they were given.
     #[serde(default)]
     pub answers: Vec<Answer>,

@@ -9,6 +9,8 @@ use chereme_sign::Remedy;
 use super::answers::Participant;
 use super::fits::short;
 use super::long;
+use super::stored::Stored;
+use super::wide::{self, ColumnMap};
 use crate::error::{Error, Result};
 use crate::import::ReportFinding;
 use crate::paths::legible;
@@ -113,8 +115,8 @@ pub(super) struct FromFile {
     pub(super) lines: Vec<u64>,
 }
 
-/// Reads a file of answers.
-pub(super) fn read(path: &Path, findings: &mut Findings) -> Result<Vec<FromFile>> {
+/// Reads a file of text.
+pub(super) fn text(path: &Path) -> Result<String> {
     let fault = |error| Error::file(path, error);
     if !fs::metadata(path).map_err(fault)?.is_file() {
         return Err(Error::wrong("it is no regular file"));
@@ -129,9 +131,19 @@ pub(super) fn read(path: &Path, findings: &mut Findings) -> Result<Vec<FromFile>
             "the file has more than {LARGEST} bytes"
         )));
     }
-    let text = String::from_utf8(bytes).map_err(|_| {
+    String::from_utf8(bytes).map_err(|_| {
         Error::wrong("the file is no text in UTF-8").advise("save it as text in UTF-8")
-    })?;
+    })
+}
+
+/// Reads a file of answers; a table by the map of its columns, if there is one.
+pub(super) fn read(
+    path: &Path,
+    study: &Stored,
+    map: Option<&ColumnMap>,
+    findings: &mut Findings,
+) -> Result<Vec<FromFile>> {
+    let text = text(path)?;
     let text = text.trim_start_matches('\u{feff}');
     if text.trim_start().starts_with('{') {
         return match serde_json::from_str::<Participant>(text) {
@@ -150,6 +162,10 @@ pub(super) fn read(path: &Path, findings: &mut Findings) -> Result<Vec<FromFile>
                 Ok(Vec::new())
             }
         };
+    }
+    if let Some(map) = map {
+        let by = (map, &study.plan, study.sha256.as_str());
+        return wide::read(text, &legible(path), by, findings);
     }
     let (people, unknown) = long::read(text, &legible(path))?;
     for title in unknown {

@@ -135,6 +135,24 @@ pub(super) fn answers(
     });
 }
 
+/// Reports the trials whose films could not be shown, and leaves them out.
+pub(super) fn skipped(person: &mut Participant, findings: &mut Findings) {
+    const SHOWN: usize = 12;
+    let trials: BTreeSet<u32> = person.skipped.drain(..).collect();
+    if trials.is_empty() {
+        return;
+    }
+    let shown = trials.iter().take(SHOWN).map(u32::to_string);
+    let more = if trials.len() > SHOWN { ", …" } else { "" };
+    let message = format!(
+        "{}: the browser could not show films; trials without all answers: {}{more}",
+        person.code,
+        shown.collect::<Vec<_>>().join(", ")
+    );
+    let remedy = "look whether the participant had the whole folder `media` and a current browser";
+    findings.add("warning", None, message, Some(remedy.into()));
+}
+
 /// Returns the trial of an answer, and its question.
 fn place(it: &Answer) -> [String; 5] {
     let (part, item, condition) = (it.part.clone(), it.item.clone(), it.condition.clone());

@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::answers::Participant;
 use super::files::{self, Findings, FromFile, listed};
 use super::stored::Stored;
+use super::wide::ColumnMap;
 use super::{fits, found, long, stored};
 use crate::Corpus;
 use crate::db::studies as db;
@@ -61,6 +62,23 @@ impl Corpus {
         paths: &[PathBuf],
         progress: &mut Progress<'_>,
     ) -> Result<AnswersReport> {
+        self.import_answers_by(study, paths, None, progress)
+    }
+
+    /// Imports answers as [`import_answers`](Self::import_answers) does, and reads tables by a map of their columns: tables
+    /// of LimeSurvey or Qualtrics, one participant a row. The map is a table, too: a title in the column `column`, and either
+    /// `item`, `condition`, `question` (and `part`, `role`) or `means`: `participant`, `language`, `started_day`, `finished`,
+    /// `profile.NAME`, `consent.NAME`. Codes of answers stand under `values`, as `A1=left; A2=right`.
+    ///
+    /// # Errors
+    /// Those of [`import_answers`](Self::import_answers); fails if the map names something that the plan does not have.
+    pub fn import_answers_by(
+        &mut self,
+        study: &str,
+        paths: &[PathBuf],
+        map: Option<&Path>,
+        progress: &mut Progress<'_>,
+    ) -> Result<AnswersReport> {
         let mut files = Vec::new();
         for path in paths {
             listed(path, 0, &mut files)?;
@@ -75,6 +93,13 @@ impl Corpus {
             .operation_with_progress("import answers", progress, |connection, progress| {
                 let found = found(connection, study)?;
                 let plan = &found.plan;
+                let map = match map {
+                    Some(path) => {
+                        let text = files::text(path).map_err(|it| it.at(legible(path)))?;
+                        Some(ColumnMap::read(&text, &legible(path), plan)?)
+                    }
+                    None => None,
+                };
                 let mut report = AnswersReport {
                     study: plan.name.clone(),
                     ..AnswersReport::default()
@@ -82,6 +107,7 @@ impl Corpus {
                 let work = Work {
                     connection,
                     study: &found,
+                    map: map.as_ref(),
                 };
                 for (done, path) in files.iter().enumerate() {
                     progress.report(Step {
@@ -127,12 +153,13 @@ enum Became {
 struct Work<'c> {
     connection: &'c Connection,
     study: &'c Stored,
+    map: Option<&'c ColumnMap>,
 }
 
 impl Work<'_> {
     fn file(&self, path: &Path, report: &mut AnswersReport) -> Result<()> {
         let mut findings = Findings::default();
-        let people = match files::read(path, &mut findings) {
+        let people = match files::read(path, self.study, self.map, &mut findings) {
             Ok(people) => people,
             Err(error) => {
                 findings.add("error", None, error.to_string(), error.remedy());
@@ -198,6 +225,7 @@ impl Work<'_> {
         }
         fits::profile(&self.study.plan, &mut person, findings);
         fits::answers(&self.study.plan, &mut person, &lines, findings);
+        fits::skipped(&mut person, findings);
         let code = Some(person.code.as_str());
         let known = db::participants(self.connection, self.study.id, code)?;
         let Some((row, finished)) = known.first().map(|(row, it)| (*row, it.finished)) else {

@@ -246,6 +246,7 @@ fn head(row: &Row<'_>) -> Participant {
             .collect(),
         profile: named(PROFILE).collect(),
         finished: truth(row.cell("finished")),
+        skipped: Vec::new(),
         answers: Vec::new(),
     }
 }

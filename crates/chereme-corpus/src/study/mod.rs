@@ -12,7 +12,7 @@
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `files`, `fits` | answers from files, checked against the plan |
-//! | `long`, `rows` | answers as a table |
+//! | `long`, `wide`, `rows` | answers as a table: one answer a row, or one participant a row |
 //! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
@@ -31,6 +31,7 @@ mod request;
 mod rows;
 mod stored;
 mod texts;
+mod wide;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -64,6 +64,7 @@ pub(super) fn participants(
             language: it.language,
             seed: it.seed,
             finished: it.finished,
+            skipped: Vec::new(),
         });
     }
     Ok(all)

@@ -91,6 +91,14 @@ pub(super) const AGREEING: &[(&str, &str)] = &[
         "copiez l’un dans l’enregistrement de l’autre, puis tranchez",
     ),
     (
+        "the annotation {value} at {s} s has no length, so it cannot go onto a third tier",
+        "l’annotation {value} à {s} s n’a pas de durée et ne peut donc pas aller sur un troisième acteur",
+    ),
+    (
+        "give it an end after its start, or delete it, then adjudicate",
+        "donnez-lui une fin après son début, ou supprimez-la, puis tranchez",
+    ),
+    (
         "several pairs of tiers of {recording} would go onto the tier {tier}",
         "plusieurs paires d’acteurs de {recording} iraient sur l’acteur {tier}",
     ),

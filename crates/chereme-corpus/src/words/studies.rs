@@ -191,6 +191,82 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "le tableau n’a pas de colonne {name}",
     ),
     (
+        "a map of columns has no column {name}",
+        "une description de colonnes n’a pas de colonne {name}",
+    ),
+    (
+        "its columns are column, item, condition, part, role, question, means and values",
+        "ses colonnes sont column, item, condition, part, role, question, means et values",
+    ),
+    (
+        "the row names no column of the answers",
+        "la ligne ne nomme aucune colonne des réponses",
+    ),
+    (
+        "{before} and this column answer the same question",
+        "{before} et cette colonne répondent à la même question",
+    ),
+    (
+        "the map has no column of participants",
+        "la description n’a pas de colonne des participants",
+    ),
+    (
+        "add a row with `participant` under `means`",
+        "ajoutez une ligne avec `participant` sous `means`",
+    ),
+    (
+        "the plan does not ask participants for {name}",
+        "le plan ne demande pas {name} aux participants",
+    ),
+    (
+        "the plan does not ask participants for {name}; did you mean {near}?",
+        "le plan ne demande pas {name} aux participants ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "{word} is no meaning of a column",
+        "{word} n’est pas le sens d’une colonne",
+    ),
+    (
+        "the meanings are participant, language, started_day, finished, profile.NAME and consent.NAME",
+        "les sens sont participant, language, started_day, finished, profile.NOM et consent.NOM",
+    ),
+    (
+        "the roles are training, main and check",
+        "les rôles sont training, main et check",
+    ),
+    (
+        "`chereme study show CORPUS NAME` lists the trials",
+        "`chereme study show CORPUS NOM` liste les essais",
+    ),
+    (
+        "the plan does not ask {name} there; did you mean {near}?",
+        "le plan n’y demande pas {name} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "{pair} does not say what it stands for",
+        "{pair} ne dit pas ce qu’il représente",
+    ),
+    (
+        "write codes and their values as `A1=left; A2=right`",
+        "écrivez les codes et leurs valeurs comme `A1=left; A2=right`",
+    ),
+    (
+        "the table has no column {name}, which the map names",
+        "le tableau n’a pas de colonne {name}, que la description nomme",
+    ),
+    (
+        "the table has no column {name}, which the map names; did you mean {near}?",
+        "le tableau n’a pas de colonne {name}, que la description nomme ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "{text} in the column {name} is no answer to {question}; it was left out",
+        "{text} dans la colonne {name} n’est pas une réponse à {question} ; elle a été laissée de côté",
+    ),
+    (
+        "say in the map what it stands for, under `values`, as `A1=left; A2=right`",
+        "dites dans la description ce qu’il représente, sous `values`, comme `A1=left; A2=right`",
+    ),
+    (
         "the table cannot be read: {error}",
         "le tableau ne peut pas être lu : {error}",
     ),
@@ -314,6 +390,14 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
     (
         "{code}: the plan has no answer {option} to {name}; it was left out",
         "{code} : le plan n’a pas de réponse {option} à {name} ; elle a été laissée de côté",
+    ),
+    (
+        "{code}: the browser could not show films; trials without all answers: {trials}",
+        "{code} : le navigateur n’a pas pu montrer des films ; essais sans toutes leurs réponses : {trials}",
+    ),
+    (
+        "look whether the participant had the whole folder `media` and a current browser",
+        "vérifiez que le participant avait tout le dossier `media` et un navigateur récent",
     ),
     (
         "answer {n} was left out: {why}",

@@ -54,7 +54,15 @@ pub(in crate::commands) const WORDS: Words = Words {
             "Answers to another plan, to unknown trials, or outside a scale are left out and reported. Later answers replace those of a participant who had not finished. The same file twice changes nothing.",
             "Les réponses à un autre plan, à des essais inconnus ou hors d’une échelle sont laissées de côté et signalées. Des réponses plus récentes remplacent celles d’un participant qui n’avait pas terminé. Le même fichier deux fois ne change rien.",
         ),
+        (
+            "Tables with one participant a row, as LimeSurvey and Qualtrics export them, need --columns: a table (.csv) whose column `column` holds titles, with `item`, `condition`, `question` (and `part`, `role`) for answers, or `means`: participant, language, started_day, finished, profile.NAME, consent.NAME. Codes stand under `values`, as `A1=left; A2=right`.",
+            "Les tableaux avec un participant par ligne, comme ceux de LimeSurvey et de Qualtrics, demandent --columns : un tableau (.csv) dont la colonne `column` contient des titres, avec `item`, `condition`, `question` (et `part`, `role`) pour les réponses, ou `means` : participant, language, started_day, finished, profile.NOM, consent.NOM. Les codes sont sous `values`, comme `A1=left; A2=right`.",
+        ),
         ("The files or folders", "Les fichiers ou dossiers"),
+        (
+            "What the columns of tables hold that have one participant a row (.csv)",
+            "Le contenu des colonnes des tableaux avec un participant par ligne (.csv)",
+        ),
         (
             "Report on the answers: people, counts, recognition, comparisons, conclusions",
             "Rendre compte des réponses : personnes, comptes, reconnaissance, comparaisons, conclusions",

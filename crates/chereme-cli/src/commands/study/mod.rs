@@ -3,7 +3,7 @@
 mod french;
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
@@ -33,6 +33,7 @@ Examples:
   chereme study new lsf.chereme pointing --trials trials.csv --ask 'place@bowls=left right' --ask realism
   chereme study build lsf.chereme places --to places/
   chereme study import lsf.chereme places answers/
+  chereme study import lsf.chereme places limesurvey.csv --columns columns.csv
   chereme study answers lsf.chereme places --to answers.csv
   chereme study report lsf.chereme places --to report.html")]
 pub(crate) struct Args {
@@ -83,6 +84,11 @@ enum Action {
     ///
     /// Answers to another plan, to unknown trials, or outside a scale are left out and reported. Later answers replace
     /// those of a participant who had not finished. The same file twice changes nothing.
+    ///
+    /// Tables with one participant a row, as LimeSurvey and Qualtrics export them, need --columns: a table (.csv) whose
+    /// column `column` holds titles, with `item`, `condition`, `question` (and `part`, `role`) for answers, or `means`:
+    /// participant, language, started_day, finished, profile.NAME, consent.NAME. Codes stand under `values`, as
+    /// `A1=left; A2=right`.
     Import {
         /// The corpus
         corpus: PathBuf,
@@ -91,6 +97,9 @@ enum Action {
         /// The files or folders
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
+        /// What the columns of tables hold that have one participant a row (.csv)
+        #[arg(long, value_name = "FILE")]
+        columns: Option<PathBuf>,
     },
     /// Write all answers as a table (.csv), one answer a row
     Answers {
@@ -200,7 +209,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
             corpus,
             name,
             files,
-        } => import(cli, (corpus, name), files, output),
+            columns,
+        } => import(cli, (corpus, name), (files, columns.as_deref()), output),
         other => act(cli, other, output).map(|()| ExitCode::SUCCESS),
     }
 }
@@ -287,13 +297,14 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
 fn import(
     cli: &Cli,
     (corpus, name): (&PathBuf, &str),
-    files: &[PathBuf],
+    (files, columns): (&[PathBuf], Option<&Path>),
     output: &mut Output,
 ) -> Result<ExitCode> {
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
     let progress = &mut Progress::new(&mut hear);
-    let report = cli.open(corpus)?.import_answers(name, files, progress)?;
+    let mut corpus = cli.open(corpus)?;
+    let report = corpus.import_answers_by(name, files, columns, progress)?;
     drop(bar);
     for file in &report.files {
         if file.findings.is_empty() && file.status != FileStatus::Refused {

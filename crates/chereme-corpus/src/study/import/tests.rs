@@ -201,6 +201,25 @@ fn a_code_that_two_people_chose_costs_neither_their_answers() {
     assert_eq!(corpus.study("bowls").expect("read"), before);
 }
 
+#[test]
+fn films_that_could_not_be_shown_are_reported_and_cost_no_other_answer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut corpus, plan) = corpus(folder.path());
+    let mut content = file(&plan, "p", true, &[answer(1, "BOL", "captured", "places")]);
+    content["skipped"] = json!([2, 3, 2]);
+    let path = write(folder.path(), "1.json", &content);
+    let report = import(&mut corpus, &path);
+    let found = &report.files[0].findings[0].message;
+    assert_eq!(
+        found,
+        "p: the browser could not show films; trials without all answers: 2, 3"
+    );
+    let people = corpus.study("bowls").expect("read").participants;
+    assert_eq!((people.len(), people[0].answers.len()), (1, 1));
+    assert!(people[0].finished);
+    assert_eq!(import(&mut corpus, &path).unchanged, 1);
+}
+
 #[cfg(unix)]
 #[test]
 fn a_folder_gives_the_files_that_its_links_lead_to() {

@@ -96,7 +96,7 @@ function readable(text) {
   try { it = JSON.parse(text); } catch { return null; }
   const whole = it && it.format === "chereme-answers" && it.version === 1 && it.plan_sha256 === data.plan_sha256
     && typeof it.participant === "string" && Number.isInteger(it.seed) && it.seed >= 0 && Array.isArray(it.answers)
-    && it.answers.every((answer) => answer && Number.isInteger(answer.n)) && it.profile && typeof it.profile === "object" && it.consent && typeof it.consent === "object";
+    && it.answers.every((answer) => answer && Number.isInteger(answer.n)) && (it.skipped === undefined || Array.isArray(it.skipped)) && it.profile && typeof it.profile === "object" && it.consent && typeof it.consent === "object";
   return whole ? it : null;
 }
 
@@ -224,7 +224,8 @@ const answersTo = (n) => person.answers.filter((answer) => answer.n === n);
 // Shows the first trial that is not answered.
 function trial() {
   const order = row();
-  const at = order.findIndex(([index], at) => answersTo(at + 1).length < both(data.trials[index]).length);
+  const skipped = person.skipped || [];
+  const at = order.findIndex(([index], at) => !skipped.includes(at + 1) && answersTo(at + 1).length < both(data.trials[index]).length);
   if (at < 0) { profile(); return; }
   // A trial that was left in the middle begins again: its film has to be seen for its questions.
   person.answers = person.answers.filter((answer) => answer.n !== at + 1);
@@ -249,8 +250,8 @@ function view(order, at) {
   const film = el("video", { class: "film", playsinline: true, preload: "auto", tabindex: -1 });
   film.muted = true;
   film.src = "media/" + it.film;
-  const broken = el("p", { class: "notice", role: "alert", hidden: true });
-  film.addEventListener("error", () => { broken.textContent = t("broken"); broken.hidden = false; });
+  const broken = el("div", { class: "notice", role: "alert", hidden: true });
+  film.addEventListener("error", () => { now.broken = true; ready(); });
   const play = (rate) => {
     film.pause();
     film.currentTime = 0;
@@ -283,7 +284,9 @@ function view(order, at) {
     next.disabled = !can || left.length > 0;
     fields.forEach((field) => field.box.classList.toggle("current", can && field === left[0]));
     // An empty hint keeps its line, so that nothing moves when it goes.
-    hint.textContent = can ? "" : t(now.stage === "first" || !asked(it, "first").length ? "watch" : "watchAgain");
+    broken.hidden = !now.broken || can;
+    if (!broken.hidden) broken.replaceChildren(el("p", {}, t("broken")), button(t("without"), skip));
+    hint.textContent = can || now.broken ? "" : t(now.stage === "first" || !asked(it, "first").length ? "watch" : "watchAgain");
     return left[0];
   }
 
@@ -296,6 +299,12 @@ function view(order, at) {
     ready();
   }
 
+  // Goes on without a film that cannot be shown; what was answered before stays.
+  function skip() {
+    person.skipped = [...(person.skipped || []), now.n];
+    leave();
+  }
+
   function goOn() {
     if (next.disabled) return;
     if (now.stage === "first" && asked(it, "second").length) {
@@ -305,8 +314,12 @@ function view(order, at) {
       play(1);
       return;
     }
+    leave();
+  }
+
+  function leave() {
     document.removeEventListener("visibilitychange", hides);
-    for (const question of both(it)) {
+    for (const question of both(it).filter((one) => now.given.has(one.name))) {
       const given = now.given.get(question.name);
       const scale = question.kind.scale;
       person.answers.push({
