@@ -3,9 +3,10 @@
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::hands_apart::Parted;
+use super::outlines::Outlines;
 use super::solve::eased;
 use super::stage::{FINGER_FLESH, Hand, HandOutline, Stage};
-use super::track::Wanted;
+use super::track::{SolvedFrames, Wanted};
 use super::tuned::tuned;
 
 /// Half the thickness of a finger, of the thumb's root, and of a palm, in hand lengths.
@@ -16,15 +17,6 @@ const ROUNDS: usize = 4;
 pub(super) const ASIDE: f64 = 0.005;
 /// Further depth (m) above which a warning is issued.
 const LEFT: f64 = 0.001;
-
-/// The separation of two hands.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Cleared {
-    /// The largest displacement, with its planned time, if it is large enough to report.
-    pub(crate) most: Option<Parted>,
-    /// The remaining depth of the hands in each other, in metres, if it is large enough to report.
-    pub(crate) left: Option<f64>,
-}
 
 /// The point of the outline at the knuckle of the middle finger.
 const MIDDLE_KNUCKLE: usize = 8;
@@ -52,24 +44,24 @@ impl Tube {
 }
 
 /// Moves the goals of two hands apart, each by half, wherever they would penetrate each other. While both hands touch
-/// something, at the times in `contacts` (s), they move apart by so little that they still touch.
+/// something, at the times in `contacts` (s), they move apart by so little that they still touch. Returns the largest
+/// displacement, with its planned time, if it is large enough to report.
 pub(crate) fn clear(
     stage: &Stage,
     hands: [&Hand; 2],
     [first, second]: [&mut Wanted<'_>; 2],
     contacts: &[Vec<(f64, f64)>; 2],
     rate: f64,
-) -> Option<Cleared> {
+) -> Option<Parted> {
     let length = hands[0].length();
     let near = ((tuned().bulk.around * rate).ceil() as usize).max(1);
     let total = first.points.len();
     let mut most: Option<Parted> = None;
     let mut sums = vec![DVec3::ZERO; total];
-    let mut left = 0.0;
     for round in 0..=ROUNDS {
         let mut displacements = vec![DVec3::ZERO; total];
         let mut same: Option<(usize, DVec3)> = None;
-        left = 0.0_f64;
+        let mut left = 0.0_f64;
         for (frame, out) in displacements.iter_mut().enumerate() {
             if let Some((n, displacement)) = same
                 && stays(first, frame, n)
@@ -106,8 +98,25 @@ pub(crate) fn clear(
             most = Some(Parted { time, by });
         }
     }
-    let left = (left > LEFT).then_some(left + depth_left());
-    (most.is_some() || left.is_some()).then_some(Cleared { most, left })
+    most
+}
+
+/// Returns the depth (m) by which two hands are in each other in their solved frames, if it is large enough to report.
+pub(crate) fn remaining(length: f64, hands: [&SolvedFrames<'_>; 2]) -> Option<f64> {
+    let [first, second] = hands.map(SolvedFrames::total);
+    let mut deepest = 0.0_f64;
+    let mut before = None;
+    for frame in 0..first.min(second) {
+        if before.is_some_and(|before| hands.iter().all(|hand| hand.stays(before, frame))) {
+            continue;
+        }
+        before = Some(frame);
+        let [Some(a), Some(b)] = hands.map(|hand| hand.placed(frame)) else {
+            return None;
+        };
+        deepest = deepest.max(overlap(length, [&a, &b]).map_or(0.0, |(deep, _)| deep));
+    }
+    (deepest > LEFT + depth_left()).then_some(deepest)
 }
 
 /// Returns whether both hands touch something at a time.
@@ -207,10 +216,6 @@ pub(super) struct Placed<'a> {
 impl<'a> Placed<'a> {
     /// Returns the hand in a frame; `None` if its skeleton has no fingers.
     pub(super) fn of(wanted: &'a Wanted<'_>, frame: usize) -> Option<Self> {
-        let [_, outline] = wanted.outlines.at(frame);
-        if outline.points.len() < 22 {
-            return None;
-        }
         let (turned, offset) = match wanted.wrist[frame] {
             Some(turn) => (
                 wanted.turns[frame] * turn,
@@ -218,8 +223,20 @@ impl<'a> Placed<'a> {
             ),
             None => (wanted.turns[frame], wanted.offsets[frame]),
         };
-        Some(Self {
-            wrist: wanted.points[frame] - turned * offset,
+        let wrist = wanted.points[frame] - turned * offset;
+        Self::at_wrist(wrist, turned, &wanted.outlines, frame)
+    }
+
+    /// Returns the hand at a place with a rotation; `None` if its skeleton has no fingers.
+    pub(super) fn at_wrist(
+        wrist: DVec3,
+        turned: DQuat,
+        outlines: &'a Outlines<'_>,
+        frame: usize,
+    ) -> Option<Self> {
+        let [_, outline] = outlines.at(frame);
+        (outline.points.len() >= 22).then_some(Self {
+            wrist,
             turned,
             outline,
         })

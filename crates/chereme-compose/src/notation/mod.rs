@@ -85,7 +85,6 @@ use crate::outcome::{ChannelReport, Generated, HandReport, Report, StepReport};
 use crate::sources::Material;
 use crate::work::Group;
 
-use bulk::Cleared;
 use hands_apart::Parted;
 use life::Alive;
 use pace::Paces;
@@ -193,6 +192,12 @@ pub fn animate(
         Some(made)
     });
     let arms: Vec<&track::SolvedFrames<'_>> = made.iter().flatten().collect();
+    let left = match (hands, arms.as_slice()) {
+        ([Some(hand), _], &[first, second]) if !plan.laced => {
+            bulk::remaining(hand.length(), [first, second])
+        }
+        _ => None,
+    };
     let moved: Vec<_> = arms.iter().map(|made| made.moved()).collect();
     let mut solved = moved.iter().copied();
     let solved = [0, 1].map(|n| made[n].as_ref().and_then(|_| solved.next()));
@@ -231,14 +236,13 @@ pub fn animate(
         fits[n] = Some(track.fit);
         lay(&mut channels, hand, track);
     }
-    if let Some(left) = cleared.and_then(|cleared| cleared.left) {
+    if let Some(left) = left {
         plan.remarks.push(format!(
             "the hands remain {:.1} cm deep in each other",
             left * 100.0
         ));
     }
-    let most = cleared.and_then(|cleared| cleared.most);
-    if let Some(parted) = farther(parted, most) {
+    if let Some(parted) = farther(parted, cleared) {
         plan.remarks.push(format!(
             "the hands would go through each other at {:.2} s: each moves {:.1} cm aside",
             warp.at(parted.time),
@@ -288,7 +292,7 @@ struct Goals<'a> {
     /// The separation of hands that pass each other, or that reach beyond the middle.
     parted: Option<Parted>,
     /// The separation of hands that would penetrate each other.
-    cleared: Option<Cleared>,
+    cleared: Option<Parted>,
     /// The displacement of each hand that would go through the head.
     round_head: [Option<Parted>; 2],
 }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use chereme_motion::glam::{DQuat, DVec3};
 
 use super::arm::{Limits, Posed};
+use super::bulk::Placed;
 use super::outlines::Outlines;
 use super::pace::{Pace, Paces};
 use super::plan::{Act, Event, HandState, SignPlan};
@@ -250,6 +251,25 @@ impl<'a> SolvedFrames<'a> {
     /// Returns the moving parts of the arm in each frame.
     pub(crate) fn moved(&self) -> &[Moved] {
         &self.moved
+    }
+
+    /// Returns the number of frames.
+    pub(crate) fn total(&self) -> usize {
+        self.got.len()
+    }
+
+    /// Returns whether the hand is the same in two frames.
+    pub(crate) fn stays(&self, a: usize, b: usize) -> bool {
+        let [one, other] = [&self.got[a], &self.got[b]];
+        one.posed == other.posed
+            && one.rotation == other.rotation
+            && std::ptr::eq(self.outlines.at(a)[1], self.outlines.at(b)[1])
+    }
+
+    /// Returns the hand in a frame; `None` if its skeleton has no fingers.
+    pub(crate) fn placed(&self, frame: usize) -> Option<Placed<'_>> {
+        let got = &self.got[frame];
+        Placed::at_wrist(got.posed.wrist, got.rotation, &self.outlines, frame)
     }
 
     /// Returns the frames in stretched time.
