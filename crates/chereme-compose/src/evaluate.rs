@@ -19,7 +19,7 @@ use crate::work::{Group, Work};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE: u32 = 21;
+pub const ENGINE: u32 = 22;
 
 /// Generates the movement of a recipe.
 ///

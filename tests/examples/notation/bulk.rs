@@ -3,7 +3,7 @@
 use chereme_motion::glam::DVec3;
 use chereme_motion::{Anatomy, ModelPose, Side, Skeleton};
 use chereme_sign::hamnosys::sites::digit_joint;
-use chereme_sign::hamnosys::{Digit, HandClass, Handshape, ThumbPosition};
+use chereme_sign::hamnosys::{Digit, HandClass, HandLocation, HandSite, Handshape, ThumbPosition};
 
 /// Half the thickness of a finger, in hand lengths: 8 mm at 19 cm.
 const FINGER: f64 = 0.042;
@@ -126,6 +126,24 @@ impl Hand {
         self.tubes
             .iter()
             .find(|tube| tube.digit == digit && tube.bone == bone)
+    }
+
+    /// Returns a point near a part of the hand; the tip of the index finger if none is named.
+    pub(crate) fn part(&self, named: Option<&HandSite>) -> Option<DVec3> {
+        let digits = named.map(|site| &site.digits);
+        let among = |digit: &Digit| digits.is_some_and(|digits| digits.contains(*digit));
+        let digit = Digit::ALL
+            .iter()
+            .position(|digit| among(digit))
+            .unwrap_or(1);
+        Some(match named.and_then(|site| site.at) {
+            Some(HandLocation::MidJoint) => self.bone(digit, 2)?.ends[0],
+            Some(HandLocation::Base) => self.bone(digit, 1)?.ends[0],
+            None | Some(HandLocation::Tip | HandLocation::Nail | HandLocation::Pad) => {
+                self.bone(digit, 3)?.ends[1]
+            }
+            _ => self.palm_end,
+        })
     }
 
     /// Returns the distance (m) of the thumb from its notated place across the hand; `None` if the handshape does not put

@@ -7,7 +7,7 @@ use chereme_compose::notation::{Settings, animate};
 use chereme_compose::{About, Generated, Material};
 use chereme_motion::glam::DVec3;
 use chereme_motion::{ModelPose, Part, Side, Span};
-use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, WristMotion};
+use chereme_sign::hamnosys::{Contact, MotionKind, NonmanualPart, Notated, Place, WristMotion};
 use chereme_sign::{Component, Reading};
 
 use crate::Result;
@@ -59,7 +59,7 @@ pub(crate) const FAULTS: [Judge; 25] = [
     ("flesh of a hand more than 5 mm in the trunk", buried),
     ("a finger's bone more than 1 cm in the head", in_head),
     (
-        "at a turned or tilted head, a touch is more than 1.5 cm off its site",
+        "at a turned head, or with a raised shoulder, a touch is more than 1.5 cm off its site",
         off_face,
     ),
     ("a wave is outside 2.5 to 4 Hz", trembling),
@@ -352,20 +352,25 @@ fn in_head(seen: &Seen<'_>) -> Option<bool> {
 fn off_face(seen: &Seen<'_>) -> Option<bool> {
     let plain = seen.plain.as_ref()?;
     let turned = seen.notated.nonmanual.acts().any(|(_, act)| {
-        matches!(act.part, NonmanualPart::Head | NonmanualPart::Body)
-            && !matches!(act.code(), "NO" | "ND" | "SH")
+        use NonmanualPart as P;
+        matches!(act.part, P::Head | P::Body | P::Shoulders)
+            && !matches!(act.code(), "NO" | "ND" | "SH" | "ST")
     });
     let head = seen.made.anatomy.joint(Part::Head)?;
-    let touching = places(seen.notated).into_iter().any(|place| {
-        let at = place.site.as_ref().map(|site| site.at);
-        use chereme_sign::hamnosys::BodyLocation as B;
+    use chereme_sign::hamnosys::BodyLocation as B;
+    let on_head = |at: B| {
+        (B::Head as u8..=B::UnderChin as u8).contains(&(at as u8))
+            || matches!(at, B::Ear | B::EarLobe | B::Cheek)
+    };
+    let touching = places(seen.notated).into_iter().find(|place| {
+        // A place half-way to the trunk follows the head by half.
+        let mut sites = place.site.iter().chain(&place.second).peekable();
         place.contact == Some(Contact::Touch)
-            && at.is_some_and(|at| {
-                (B::Head as u8..=B::UnderChin as u8).contains(&(at as u8))
-                    || matches!(at, B::Ear | B::EarLobe | B::Cheek)
-            })
+            && sites.peek().is_some()
+            && sites.all(|site| on_head(site.at))
     });
-    if !turned || !touching {
+    let part = touching?.by.as_ref();
+    if !turned {
         return None;
     }
     let side = seen.dominant();
@@ -384,11 +389,7 @@ fn off_face(seen: &Seen<'_>) -> Option<bool> {
     );
     let hand = |model: &ModelPose| {
         let hand = Hand::of(&seen.made.anatomy, seen.made.clip.skeleton(), model, side)?;
-        let at = hand
-            .tubes
-            .iter()
-            .find(|tube| tube.digit == 1 && tube.bone == 3)?
-            .ends[1];
+        let at = hand.part(part)?;
         Some(model.rotation(head).inverse() * (at - model.position(head)))
     };
     Some(hand(&seen.models[first])?.distance(hand(&other)?) > 0.015)
@@ -503,9 +504,16 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
         let second = directed
             .second
             .map_or(v, |second| DVec3::from(second.vector()));
-        found = Some((v + second).normalize_or(v));
+        // The part of the hand that reaches the target goes there, not the wrist.
+        let part = match posture.place.as_ref() {
+            Some(Place::Body(place)) => place.by.as_ref(),
+            Some(Place::Hand(site)) => site.by.as_deref(),
+            Some(Place::Hands(hands)) => hands.dominant.as_ref(),
+            _ => None,
+        };
+        found = Some(((v + second).normalize_or(v), part));
     }
-    let expected = found?;
+    let (expected, part) = found?;
     let frame = seen.made.anatomy.body_frame(&seen.models[0])?;
     let side = seen.dominant();
     let left = if side == Side::Left {
@@ -515,11 +523,26 @@ fn astray(seen: &Seen<'_>) -> Option<bool> {
     };
     let expected = frame.left * left + DVec3::Y * expected.y + frame.forward * expected.z;
     let &(from, to) = seen.strokes().first()?;
-    let start = seen.wrist(side, from)?;
-    let arm = seen.made.anatomy.arm(side)?;
-    let whole = seen.path(arm.hand, (from, to));
-    let early = (from..=to).find(|&n| seen.path(arm.hand, (from, n)) > 0.25 * whole)?;
-    let went = (seen.wrist(side, early)? - start)
+    let at = |n: usize| {
+        let wrist = seen.wrist(side, n)?;
+        let skeleton = seen.made.clip.skeleton();
+        let hand = Hand::of(&seen.made.anatomy, skeleton, &seen.models[n], side);
+        Some(match part {
+            Some(part) => hand?.part(Some(part))?,
+            None => wrist,
+        })
+    };
+    let path: Vec<DVec3> = (from..=to).map(at).collect::<Option<_>>()?;
+    let steps = path.windows(2).map(|two| two[0].distance(two[1]));
+    let gone: Vec<f64> = steps
+        .scan(0.0, |sum, step| {
+            *sum += step;
+            Some(*sum)
+        })
+        .collect();
+    let whole = *gone.last()?;
+    let early = gone.iter().position(|gone| *gone > 0.25 * whole)?;
+    let went = (path[early + 1] - path[0])
         .try_normalize()
         .filter(|_| whole > 0.03)?;
     Some(went.angle_between(expected) > 45_f64.to_radians())

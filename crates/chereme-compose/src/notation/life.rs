@@ -6,7 +6,7 @@
 
 use std::f64::consts::TAU;
 
-use chereme_motion::Part;
+use chereme_motion::{Part, Side};
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
@@ -68,8 +68,15 @@ impl Alive {
         Self { bents, gaze }
     }
 
-    /// Moves hands that are at the head with it.
-    pub(crate) fn carry(&self, body: &Stage, wanted: &mut Wanted<'_>) {
+    /// Moves hands that are at the head with it, and keeps hands that touch something in place while a shoulder is
+    /// raised or brought forward.
+    pub(crate) fn carry(&self, body: &Stage, side: Side, wanted: &mut Wanted<'_>) {
+        let touches = wanted.points.iter_mut().zip(&wanted.touch);
+        for ((point, touch), bent) in touches.zip(&self.bents) {
+            if *touch > 0.0 {
+                *point -= bent.moved_shoulder(body, side) * smooth(*touch);
+            }
+        }
         let Some((middle, height)) = head(body) else {
             return;
         };
@@ -242,6 +249,19 @@ impl Bent {
     /// Returns whether the head is rotated on the trunk.
     fn turns_head(&self) -> bool {
         self.head != DVec3::ZERO || self.neck != DVec3::ZERO
+    }
+
+    /// Returns the distance (m) and direction by which a shoulder moves on the trunk, and the whole arm with it.
+    fn moved_shoulder(&self, body: &Stage, side: Side) -> DVec3 {
+        let by = self.collar_bone(body, side);
+        let joints = [Part::Clavicle(side), Part::UpperArm(side)];
+        match joints.map(|part| body.anatomy.joint(part)) {
+            [Some(collar_bone), Some(shoulder)] if by != DQuat::IDENTITY => {
+                let bone = body.model.position(shoulder) - body.model.position(collar_bone);
+                by * bone - bone
+            }
+            _ => DVec3::ZERO,
+        }
     }
 
     /// Returns the new position of a point on the standing body's head after the head's rotation on the trunk.

@@ -315,8 +315,8 @@ impl<'a> Goals<'a> {
         }
         let round_head = [&mut first, &mut second].map(|one| skull::go_round(body, one, rate));
         let alive = Alive::of(body, signs, plan, language, [&first, &second], rate);
-        for wanted in [&mut first, &mut second] {
-            alive.carry(body, wanted);
+        for (wanted, side) in [&mut first, &mut second].into_iter().zip(plan.sides) {
+            alive.carry(body, side, wanted);
         }
         let mut cleared = None;
         if let [Some(a), Some(b)] = hands {

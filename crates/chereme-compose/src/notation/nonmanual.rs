@@ -181,6 +181,14 @@ struct TurnedJoints {
 }
 
 impl Bent {
+    /// Returns the rotation of the collar bone on the standing body, in model space.
+    pub(crate) fn collar_bone(&self, body: &Stage, side: Side) -> DQuat {
+        let n = usize::from(side == Side::BOTH[1]);
+        let up = body.forward * (self.raised[n] * side.sign());
+        let ahead = DVec3::Y * (-self.hunched[n] * side.sign());
+        DQuat::from_scaled_axis(up + ahead)
+    }
+
     fn mix(&self, to: &Self, share: f64) -> Self {
         if share == 0.0 || self == to {
             return *self;
@@ -390,9 +398,7 @@ impl TurnedJoints {
         turn(self.head, DQuat::from_scaled_axis(axes(bent.head)));
         for (n, side) in Side::BOTH.into_iter().enumerate() {
             // The upper arm keeps its direction: the whole arm moves with the shoulder.
-            let up = body.forward * (bent.raised[n] * side.sign());
-            let ahead = DVec3::Y * (-bent.hunched[n] * side.sign());
-            let by = DQuat::from_scaled_axis(up + ahead);
+            let by = bent.collar_bone(body, side);
             let [clavicle, upper_arm] = self.shoulders[n];
             if by == DQuat::IDENTITY || clavicle.is_none() {
                 continue;

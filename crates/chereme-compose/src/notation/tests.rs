@@ -635,6 +635,34 @@ fn a_touch_beside_the_head_meets_the_head() {
 }
 
 #[test]
+fn raised_shoulders_do_not_move_a_hand_off_what_it_touches() {
+    use chereme_sign::hamnosys::{Act, NonmanualPart};
+    let place = at(BodyLocation::Forehead, Some(Contact::Touch));
+    let begun = posture(HandClass::Finger2, "ul", "d", Some(place));
+    let plain = notated(HandsUsed::Dominant, begun, vec![]);
+    let on_head = |made: &Generated| {
+        let [tip, nose] = ["right-index-tip", "nose"].map(|point| landmark(made, 0.5, point));
+        tip - nose
+    };
+    let still = on_head(&made(&plain, Axes::Odd));
+    let shoulder = |made: &Generated| {
+        let arm = made.anatomy.arm(Side::Right).expect("an arm");
+        model(made, 0.5).position(arm.upper)
+    };
+    let low = shoulder(&made(&plain, Axes::Odd));
+    for tag in ["UB", "UR", "HB", "HR"] {
+        let mut sign = plain.clone();
+        let part = NonmanualPart::Shoulders;
+        sign.nonmanual.push(part.tier(), vec![Act::new(part, tag)]);
+        let made = made(&sign, Axes::Odd);
+        let moved = shoulder(&made).distance(low);
+        assert!(moved > 0.02, "{tag} moves the shoulder by {moved} m");
+        let off = on_head(&made).distance(still);
+        assert!(off < 0.004, "{tag} moves the hand by {off} m");
+    }
+}
+
+#[test]
 fn a_hand_part_that_faces_away_is_replaced_by_the_part_in_front_of_it() {
     let mut place = at(BodyLocation::Chest, Some(Contact::Touch));
     if let Place::Body(body) = &mut place {
