@@ -6,8 +6,8 @@
 
 use std::f64::consts::TAU;
 
-use chereme_motion::{Part, Side};
 use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Part, Side};
 use chereme_sign::hamnosys::{BodyLanguage, NonmanualPart, Notated};
 
 use super::nonmanual::{self, Bent};
@@ -251,7 +251,7 @@ impl Bent {
         self.head != DVec3::ZERO || self.neck != DVec3::ZERO
     }
 
-    /// Returns the distance (m) and direction by which a shoulder moves on the trunk, and the whole arm with it.
+    /// Returns the displacement (m) of a shoulder on the trunk; the whole arm moves with it.
     fn moved_shoulder(&self, body: &Stage, side: Side) -> DVec3 {
         let by = self.collar_bone(body, side);
         let joints = [Part::Clavicle(side), Part::UpperArm(side)];

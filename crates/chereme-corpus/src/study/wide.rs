@@ -1,6 +1,6 @@
 //! Answers from tables of other survey programs: one participant a row, one answer a column.
 //!
-//! LimeSurvey and Qualtrics export such tables. A second table, the map, names what each column holds. Its own columns are
+//! LimeSurvey and Qualtrics export such tables. A second table, the map, gives the meaning of each column. Its own columns are
 //!
 //! | column | holds |
 //! |---|---|
@@ -42,7 +42,7 @@ const CONSENT: &str = "consent.";
 /// The answer of a participant who cannot say, in the languages of the questionnaire.
 const CANNOT_SAY: [&str; 2] = ["I cannot say", "Je ne sais pas"];
 
-/// What the columns of a table of answers hold.
+/// The meaning of each column of a table of answers.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct ColumnMap {
     columns: Vec<MappedColumn>,
@@ -53,11 +53,11 @@ pub(super) struct ColumnMap {
 struct MappedColumn {
     title: String,
     means: Means,
-    /// What codes stand for, by the code in folded letters.
+    /// The answer for which each code stands, by the code in folded letters.
     values: BTreeMap<String, String>,
 }
 
-/// What a column holds.
+/// The meaning of a column.
 #[derive(Debug, Clone, PartialEq)]
 enum Means {
     Code,
@@ -354,7 +354,7 @@ fn person<'a>(
 }
 
 /// Reads an answer: a number of a scale or its label, or an option by its name or its text; nothing for people who
-/// cannot say. `None` if it is none of these.
+/// cannot say. `None` if no such answer is known.
 fn given(plan: &Plan, place: &Place, text: &str) -> Option<(Option<i64>, Option<String>)> {
     let question = plan.questions.iter().find(|it| it.name == place.question)?;
     let Question {

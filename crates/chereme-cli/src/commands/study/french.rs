@@ -60,8 +60,8 @@ pub(in crate::commands) const WORDS: Words = Words {
         ),
         ("The files or folders", "Les fichiers ou dossiers"),
         (
-            "What the columns of tables hold that have one participant a row (.csv)",
-            "Le contenu des colonnes des tableaux avec un participant par ligne (.csv)",
+            "The meaning of the columns of tables with one participant a row (.csv)",
+            "Le sens des colonnes des tableaux avec un participant par ligne (.csv)",
         ),
         (
             "Report on the answers: people, counts, recognition, comparisons, conclusions",

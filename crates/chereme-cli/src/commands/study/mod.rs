@@ -97,7 +97,7 @@ enum Action {
         /// The files or folders
         #[arg(required = true, value_name = "FILE")]
         files: Vec<PathBuf>,
-        /// What the columns of tables hold that have one participant a row (.csv)
+        /// The meaning of the columns of tables with one participant a row (.csv)
         #[arg(long, value_name = "FILE")]
         columns: Option<PathBuf>,
     },
