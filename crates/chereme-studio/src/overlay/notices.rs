@@ -179,6 +179,7 @@ impl Notices {
                 | Outcome::Changed
                 | Outcome::Imported(_)
                 | Outcome::Merged(_)
+                | Outcome::Adjudicated(_)
                 | Outcome::Recombined(_)
                 | Outcome::Deleted(_)
                 | Outcome::Undone(_)

@@ -22,6 +22,7 @@ macro_rules! texts {
 }
 
 pub(crate) mod actions;
+pub(crate) mod agreement;
 pub(crate) mod cue;
 pub(crate) mod export;
 pub(crate) mod faces;
@@ -46,8 +47,9 @@ pub(crate) mod timeline;
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 20] = [
+    const TABLES: [&[(&str, Text)]; 21] = [
         actions::ALL,
+        agreement::ALL,
         cue::ALL,
         export::ALL,
         faces::ALL,

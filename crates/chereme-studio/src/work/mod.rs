@@ -10,6 +10,7 @@
 
 pub(crate) mod analysis;
 pub(crate) mod begin;
+pub(crate) mod comparing;
 pub(crate) mod desk;
 pub(crate) mod editing;
 pub(crate) mod exchange;
@@ -153,12 +154,14 @@ pub(crate) enum Lane {
     Little,
     /// Movement for measurement.
     Measure,
+    /// Comparisons of annotators; a search does not wait for them.
+    Compare,
     /// Writing of files.
     Export,
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Edit,
         Self::Ask,
         Self::Make,
@@ -166,6 +169,7 @@ impl Lane {
         Self::Movement,
         Self::Little,
         Self::Measure,
+        Self::Compare,
         Self::Export,
     ];
 }

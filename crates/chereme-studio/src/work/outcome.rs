@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use chereme_corpus::{
-    AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
-    ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport, Moving, Onsets,
-    OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+    Adjudicated, Agreement, AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves,
+    Deleted, Details, ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport,
+    Moving, Onsets, OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap,
+    Suggestions,
 };
 use eframe::egui::ColorImage;
 
@@ -59,6 +60,10 @@ pub(crate) enum Outcome {
     Expressions(Arc<Expressions>),
     /// Performances were ranked.
     Chosen(Arc<Choice>),
+    /// Two annotators were compared.
+    Agreed(Arc<Agreement>),
+    /// A third tier was written from those of two annotators.
+    Adjudicated(Adjudicated),
     /// The begin and end of non-manuals were measured.
     Onsets(Arc<Onsets>),
     /// Movement was generated.
