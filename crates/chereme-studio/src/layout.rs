@@ -35,7 +35,7 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{
         Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search,
-        Stage, Timeline,
+        Stage, Studies, Timeline,
     };
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
@@ -46,22 +46,22 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         match busy {
             Busy::Annotating => {
                 let above = [
-                    Stage, Film, Library, Search, Map, Faces, Agreement, Recombine, Cue, Import,
-                    Inspector, History,
+                    Stage, Film, Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue,
+                    Import, Inspector, History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 shares(&mut tiles, Vertical, &parts)
             }
             Busy::Recombining => {
                 let left = tabs(&[
-                    Library, Search, Map, Faces, Agreement, Recombine, Cue, Import,
+                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
                 ]);
                 let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
                 shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
             Busy::Searching => {
                 let left = tabs(&[
-                    Library, Search, Map, Faces, Agreement, Recombine, Cue, Import,
+                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
                 ]);
                 let side = [
                     (tabs(&[Stage]), 0.64),
@@ -73,7 +73,7 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         }
     } else {
         let left = tabs(&[
-            Library, Search, Map, Faces, Agreement, Recombine, Cue, Import,
+            Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
         ]);
         let stage = tabs(&[Stage]);
         // Three panes above each other would have too little height to read.

@@ -8,7 +8,7 @@
 use super::{ActionRow, Context, Menu, Owner};
 use crate::panes::PaneKind::{
     Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search,
-    Stage, Timeline,
+    Stage, Studies, Timeline,
 };
 use crate::words::{Text, shell};
 use crate::work::{Job, Outcome};
@@ -409,6 +409,8 @@ actions! {
         Panes, Corpus, Shows(Faces), "Ctrl+Alt+V" "=" "=";
     ShowAgreement "pane.agreement" "Agreement of two annotators" | "Accord de deux annotateurs"
         Panes, Corpus, Shows(Agreement), "Ctrl+Alt+B" "=" "=";
+    ShowStudies "pane.studies" "Studies: what people see" | "Études : ce que les gens voient"
+        Panes, Corpus, Shows(Studies), "Ctrl+Alt+O" "=" "=";
     ShowHistory "pane.history" "Show the history" | "Afficher l’historique"
         Panes, Corpus, Shows(History), "Ctrl+H" "=" "=";
     OnlyPane "pane.only" "Only this pane, or all again" | "Seulement ce panneau, ou tous à nouveau"

@@ -180,6 +180,8 @@ impl Notices {
                 | Outcome::Imported(_)
                 | Outcome::Merged(_)
                 | Outcome::Adjudicated(_)
+                | Outcome::Planned(_)
+                | Outcome::AnswersImported(_)
                 | Outcome::Recombined(_)
                 | Outcome::Deleted(_)
                 | Outcome::Undone(_)

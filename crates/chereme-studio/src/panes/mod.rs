@@ -19,6 +19,7 @@ mod notated;
 pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod stage;
+pub(crate) mod studies;
 pub(crate) mod timeline;
 pub(crate) mod without_movement;
 
@@ -42,6 +43,7 @@ pub(crate) enum PaneKind {
     Cue,
     Faces,
     Agreement,
+    Studies,
     Stage,
     Timeline,
     Search,
@@ -53,12 +55,13 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 13] = [
+    pub(crate) const ALL: [Self; 14] = [
         Self::Library,
         Self::Map,
         Self::Cue,
         Self::Faces,
         Self::Agreement,
+        Self::Studies,
         Self::Stage,
         Self::Timeline,
         Self::Search,
@@ -76,6 +79,7 @@ impl PaneKind {
             Self::Cue => words::cue::TITLE,
             Self::Faces => words::faces::TITLE,
             Self::Agreement => words::agreement::TITLE,
+            Self::Studies => words::studies::TITLE,
             Self::Stage => words::stage::TITLE,
             Self::Timeline => words::timeline::TITLE,
             Self::Search => words::search::TITLE,
@@ -134,6 +138,7 @@ pub(crate) struct Panes {
     pub(crate) cue: cue::CuePane,
     pub(crate) faces: faces::Faces,
     pub(crate) agreement: agreement::AgreementPane,
+    pub(crate) studies: studies::Studies,
     pub(crate) stage: stage::Stage,
     pub(crate) timeline: timeline::Timeline,
     pub(crate) search: search::Search,
@@ -152,6 +157,7 @@ impl Panes {
             PaneKind::Cue => &mut self.cue,
             PaneKind::Faces => &mut self.faces,
             PaneKind::Agreement => &mut self.agreement,
+            PaneKind::Studies => &mut self.studies,
             PaneKind::Stage => &mut self.stage,
             PaneKind::Timeline => &mut self.timeline,
             PaneKind::Search => &mut self.search,

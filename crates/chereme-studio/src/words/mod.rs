@@ -41,13 +41,14 @@ pub(crate) mod search;
 pub(crate) mod shell;
 pub(crate) mod stage;
 pub(crate) mod steps;
+pub(crate) mod studies;
 pub(crate) mod timeline;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 21] = [
+    const TABLES: [&[(&str, Text)]; 22] = [
         actions::ALL,
         agreement::ALL,
         cue::ALL,
@@ -67,6 +68,7 @@ mod tests {
         shell::ALL,
         stage::ALL,
         steps::ALL,
+        studies::ALL,
         timeline::ALL,
         gestures::ALL,
     ];

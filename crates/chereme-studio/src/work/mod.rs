@@ -20,6 +20,7 @@ mod outcome;
 pub(crate) mod recombining;
 pub(crate) mod recordings;
 pub(crate) mod searching;
+pub(crate) mod studying;
 pub(crate) mod whole_corpus;
 
 use std::fmt;
@@ -154,7 +155,7 @@ pub(crate) enum Lane {
     Little,
     /// Movement for measurement.
     Measure,
-    /// Comparisons of annotators; a search does not wait for them.
+    /// Comparisons of annotators and reports of studies; a search does not wait for them.
     Compare,
     /// Writing of files.
     Export,
