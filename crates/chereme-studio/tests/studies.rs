@@ -9,11 +9,12 @@ use chereme_corpus::Corpus;
 use chereme_corpus::study::answers::{
     ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
 };
-use chereme_corpus::study::plan::Role;
+use chereme_corpus::study::plan::Role as TrialRole;
 use chereme_studio::Language;
 use common::tiers::{ALT, CTRL, operations, stored};
 use common::*;
-use eframe::egui::{DroppedFile, DroppedFileHandle, Key};
+use eframe::egui::accesskit::Role;
+use eframe::egui::{DroppedFile, DroppedFileHandle, Event, Key};
 use egui_kittest::kittest::{NodeT, Queryable};
 
 fn contains(window: &Window<'_>, label: &str) -> bool {
@@ -52,7 +53,7 @@ fn write_answers(folder: &Path, sha256: &str, code: &str, values: [i64; 2]) -> P
         part: String::new(),
         item: "ESCARGOT".into(),
         condition: condition.into(),
-        role: Role::Main,
+        role: TrialRole::Main,
         question: "realism".into(),
         scale: Some([1, 5]),
         value: Some(value),
@@ -120,6 +121,16 @@ fn a_study_is_planned_built_answered_and_reported() {
     );
 
     click(&mut window, "Questionnaire");
+    for (number, text) in [("Height of films", "64"), ("Pictures per second", "5")] {
+        window
+            .get_by_role_and_label(Role::SpinButton, number)
+            .focus();
+        window.run_steps(2);
+        window.event(Event::Text(text.to_owned()));
+        window.run_steps(2);
+        window.key_press(Key::Enter);
+        window.run_steps(2);
+    }
     click(&mut window, "Build the questionnaire");
     until(&mut window, "the questionnaire", |it| {
         contains(it, "2 films, ")

@@ -15,7 +15,7 @@ const LEAST: f64 = 2.0;
 
 /// Returns the two tiers of a recording that most probably code the same thing, in their order; nothing if no two do.
 ///
-/// Both have annotations, the same role and hand, and no two participants, and neither is below the other. Different
+/// Both have annotations, the same role and hand, and no two participants or languages, and neither is below the other. Different
 /// annotators, names that differ in one part, a role other than free text and common values count for a pair.
 #[must_use]
 pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
@@ -44,10 +44,16 @@ pub fn alike_tiers(tiers: &[TierContents]) -> Option<[i64; 2]> {
 
 /// Returns whether two tiers can code the same thing of the same person.
 fn may_be_compared(a: &TierRow, b: &TierRow) -> bool {
-    let filled = |it: &Option<String>| it.clone().filter(|it| !it.trim().is_empty());
-    let persons = filled(&a.participant).zip(filled(&b.participant));
+    let may_be_same = |a: &Option<String>, b: &Option<String>| match (a, b) {
+        (Some(a), Some(b)) => {
+            let (a, b) = (fold(a.trim()), fold(b.trim()));
+            a == b || a.is_empty() || b.is_empty()
+        }
+        _ => true,
+    };
     a.topic() == b.topic()
-        && persons.is_none_or(|(one, other)| fold(&one) == fold(&other))
+        && may_be_same(&a.participant, &b.participant)
+        && may_be_same(&a.language, &b.language)
         && a.parent_id != Some(b.id)
         && b.parent_id != Some(a.id)
 }
@@ -168,11 +174,16 @@ mod tests {
     }
 
     #[test]
-    fn other_hands_people_and_empty_tiers_are_no_pair() {
+    fn other_hands_people_languages_and_empty_tiers_are_no_pair() {
         let hand =
             |hand| move |it: &mut TierRow| (it.role, it.hand) = (TierRole::Gloss, Some(hand));
         let person =
             |name: &'static str| move |it: &mut TierRow| it.participant = Some(name.to_owned());
+        let language = |name: &'static str| {
+            move |it: &mut TierRow| {
+                (it.role, it.language) = (TierRole::Translation, Some(name.to_owned()));
+            }
+        };
         let below = |it: &mut TierRow| it.parent_id = Some(1);
         for (what, one, other) in [
             (
@@ -184,6 +195,11 @@ mod tests {
                 "people",
                 tier(1, "Gloss 1", &["A"], person("Zoé")),
                 tier(2, "Gloss 2", &["A"], person("Max")),
+            ),
+            (
+                "languages",
+                tier(1, "Translation FR", &["A"], language("fra")),
+                tier(2, "Translation EN", &["A"], language("eng")),
             ),
             (
                 "a parent",

@@ -164,7 +164,7 @@ impl AgreementPane {
     }
 
     /// Shows the lists of tiers, and the settings.
-    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, contents: &Contents) {
+    fn tools(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, contents: &Contents, out: &mut Outbox) {
         let named = |it: &chereme_corpus::TierContents| match it.row.annotator.as_deref() {
             Some(by) if !by.trim().is_empty() => format!("{} · {by}", it.row.name),
             _ => it.row.name.clone(),
@@ -173,8 +173,10 @@ impl AgreementPane {
         let tiers: Vec<(Option<i64>, String)> =
             tiers.map(|it| (Some(it.row.id), named(it))).collect();
         let [first, second] = &mut self.choices.tiers;
-        combo::named(ui, seen.say(words::FIRST), first, &tiers);
-        combo::named(ui, seen.say(words::SECOND), second, &tiers);
+        ui.horizontal_wrapped(|ui| {
+            combo::named(ui, seen.say(words::FIRST), first, &tiers);
+            combo::named(ui, seen.say(words::SECOND), second, &tiers);
+        });
         ui.horizontal_wrapped(|ui| {
             let swap = ui.button(seen.say(words::SWAP));
             if swap.on_hover_text(seen.say(words::SWAP_TIP)).clicked() {
@@ -190,6 +192,7 @@ impl AgreementPane {
             ] {
                 ui.checkbox(on, seen.say(text)).on_hover_text(seen.say(tip));
             }
+            self.running(ui, seen, out);
         });
         let header = CollapsingHeader::new(seen.say(words::SETTINGS)).id_salt("settings");
         header.show(ui, |ui| {
@@ -208,20 +211,24 @@ impl AgreementPane {
         });
     }
 
-    /// Shows how far the comparison is, or why there is none.
-    fn status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
-        if let Some(id) = self.asking.filter(|id| seen.is_running(Some(*id))) {
-            ui.horizontal_wrapped(|ui| {
-                match seen.far(id).and_then(crate::work::Far::share) {
-                    Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(120.0))),
-                    None => drop(ui.spinner()),
-                }
-                ui.label(seen.say(words::TASK));
-                if ui.button(seen.say(words::STOP)).clicked() {
-                    out.send(Command::Stop(id));
-                }
-            });
-        } else if self.stopped {
+    /// Shows how far the comparison is, and the button that stops it.
+    fn running(&self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+        let Some(id) = self.asking.filter(|id| seen.is_running(Some(*id))) else {
+            return;
+        };
+        match seen.far(id).and_then(crate::work::Far::share) {
+            Some(share) => drop(ui.add(ProgressBar::new(share).desired_width(80.0))),
+            None => drop(ui.spinner()),
+        }
+        let stop = ui.button(seen.say(words::STOP));
+        if stop.on_hover_text(seen.say(words::TASK)).clicked() {
+            out.send(Command::Stop(id));
+        }
+    }
+
+    /// Shows why there is no comparison.
+    fn status(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        if self.stopped {
             ui.horizontal_wrapped(|ui| {
                 ui.strong(seen.say(words::STOPPED));
                 if ui.button(seen.say(words::AGAIN)).clicked() {
@@ -351,13 +358,13 @@ impl Pane for AgreementPane {
             .auto_shrink(false);
         area.show(ui, |ui| {
             match contents {
-                Some(contents) => self.tools(ui, seen, contents),
+                Some(contents) => self.tools(ui, seen, contents, out),
                 None if seen.shown.recording.is_none() => {
                     drop(ui.label(seen.say(words::NO_RECORDING)));
                 }
                 None => {}
             }
-            self.status(ui, seen, out);
+            self.status(ui, seen);
             let Some((found, names)) = self.found.clone() else {
                 if self.asking.is_none() && self.wrong.is_none() && contents.is_some() {
                     ui.label(seen.say(words::CHOOSE));

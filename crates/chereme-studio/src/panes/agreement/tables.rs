@@ -1,7 +1,7 @@
 //! The measures, and the tables of values, confusions and recordings.
 
 use chereme_corpus::{Agreement, Figure, USUAL_MEASURES};
-use eframe::egui::{Grid, RichText, ScrollArea, Ui};
+use eframe::egui::{CollapsingHeader, Grid, RichText, ScrollArea, Ui};
 
 use super::data;
 use crate::context::PaneInput;
@@ -12,7 +12,10 @@ const FIRST: [&str; 5] = ["raw", "kappa_ipf", "alpha_u", "gamma", "matched"];
 /// How many rows a table shows at most.
 const MOST: usize = 500;
 
-/// Shows the counts, and the usual measures with their intervals.
+/// The height of a pane that shows measures and the list together, in points; a lower one begins with the list.
+const TALL: f32 = 420.0;
+
+/// Shows the counts, and below them the usual measures with their intervals, which can be folded away.
 pub(super) fn measures(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
     let counts = &found.counts;
     let values: [(&str, &dyn std::fmt::Display); 4] = [
@@ -21,7 +24,13 @@ pub(super) fn measures(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
         ("matched", &counts.matched),
         ("equal", &counts.equal),
     ];
-    ui.label(fill(seen.say(words::COUNTS), &values));
+    let header = CollapsingHeader::new(fill(seen.say(words::COUNTS), &values))
+        .id_salt("measures")
+        .default_open(ui.clip_rect().height() > TALL);
+    header.show(ui, |ui| usual(ui, seen, found));
+}
+
+fn usual(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
     for finding in &found.findings {
         ui.weak(spoken(finding, seen.language));
     }

@@ -168,7 +168,8 @@ impl Studies {
             });
         }
         let height = ui.spacing().interact_size.y * 1.9;
-        let room = (height * rows.len() as f32 + 8.0).min(320.0);
+        let whole = height + ui.spacing().item_spacing.y;
+        let room = (whole * rows.len() as f32).min(320.0);
         let mut picked = None;
         ScrollArea::vertical()
             .id_salt("trials")
