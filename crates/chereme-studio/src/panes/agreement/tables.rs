@@ -27,17 +27,20 @@ pub(super) fn measures(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
     let header = CollapsingHeader::new(fill(seen.say(words::COUNTS), &values))
         .id_salt("measures")
         .default_open(ui.clip_rect().height() > TALL);
-    header.show(ui, |ui| usual(ui, seen, found));
-}
-
-fn usual(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
+    header.show(ui, |ui| {
+        if !found.counts_only {
+            usual(ui, seen, found);
+        }
+    });
     for finding in &found.findings {
         ui.weak(spoken(finding, seen.language));
     }
     if found.counts_only {
         ui.weak(seen.say(words::FEW));
-        return;
     }
+}
+
+fn usual(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
     let usual = FIRST.iter().filter(|it| USUAL_MEASURES.contains(it));
     let usual = usual.filter_map(|name| found.measures.iter().find(|it| it.0 == *name));
     table(ui, seen, "usual measures", usual);

@@ -73,7 +73,7 @@ pub(crate) struct Studies {
     report: report::Shown,
 }
 
-/// The clip of a trial on its way to the stage.
+/// The clip of a trial that the stage shows next.
 #[derive(Default)]
 struct Clip {
     making: Option<WorkId>,
