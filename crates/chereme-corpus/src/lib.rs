@@ -80,7 +80,7 @@ pub use address::{Address, Name, Stretch};
 pub use agree::{
     Adjudicated, AgreeOptions, Agreement, Confusion, Disagreement, DisagreementCounts,
     DisagreementKind, DisagreementSide, FEWEST_UNITS, Figure, FigureInterval, MEASURES,
-    PairAgreement, UnitCounts, ValueAgreement,
+    PairAgreement, USUAL_MEASURES, UnitCounts, ValueAgreement, alike_tiers,
 };
 pub use animate::Staging;
 pub use annotate::{

@@ -262,6 +262,7 @@ impl Studio {
     /// Returns the view that panes draw from; `None` without a snapshot.
     pub(crate) fn seen(&self, ctx: &Context) -> Option<PaneInput<'_>> {
         Some(PaneInput {
+            path: &self.desk.as_ref()?.path,
             snapshot: self.snapshot.as_ref()?,
             shown: &self.shown,
             reel: &self.reel,
@@ -400,6 +401,12 @@ impl Studio {
             [one] => Some(one.clone()),
             _ => None,
         };
+        if self.desk.is_some()
+            && layout::shows(&self.tree, PaneKind::Studies)
+            && self.panes.studies.drop_files(&dropped)
+        {
+            return;
+        }
         let corpus = |path: &PathBuf| path.extension().is_some_and(|it| it == "chereme");
         self.out.send(match one {
             Some(path) if corpus(&path) => Command::Begin(Begin::Open(path)),
@@ -435,6 +442,7 @@ impl Studio {
                 return;
             };
             let seen = PaneInput {
+                path: &desk.path,
                 snapshot,
                 shown,
                 reel,

@@ -70,6 +70,8 @@ pub(crate) enum Command {
     Placed(u64, Goal),
     /// Add a media file to the recording with that row id, or replace its track with the given row id.
     Media(i64, Option<i64>, PathBuf),
+    /// Give the pane of studies the paths that a chooser for it returned.
+    Studied(Choose, Vec<PathBuf>),
     /// Open the import pane with these files and folders.
     Import(Vec<PathBuf>),
     /// Show everything known about something in the inspector.

@@ -1,6 +1,7 @@
 //! The view of a pane, its requests, and the current display and selection.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_motion::{Instant, Span};
@@ -107,6 +108,8 @@ fn hull(snapshot: &Snapshot, annotations: &BTreeSet<i64>) -> Option<Span> {
 /// The read-only input of a pane while it draws.
 #[derive(Clone, Copy)]
 pub(crate) struct PaneInput<'a> {
+    /// The file of the corpus.
+    pub(crate) path: &'a Path,
     pub(crate) snapshot: &'a Snapshot,
     pub(crate) shown: &'a DisplayState,
     pub(crate) reel: &'a Reel,
@@ -130,6 +133,11 @@ impl PaneInput<'_> {
 
     pub(crate) fn colours(&self) -> &'static Colours {
         Colours::of(self.dark)
+    }
+
+    /// Returns the path of a file of that name beside the corpus.
+    pub(crate) fn beside(&self, name: &str) -> PathBuf {
+        self.path.with_file_name(name)
     }
 
     /// Returns the progress of a running piece of work.

@@ -116,6 +116,7 @@ impl Studio {
                 let name = chereme_corpus::Name::Number(recording);
                 self.out.work(recordings::change_media(name, change));
             }
+            Command::Studied(what, paths) => self.panes.studies.take_paths(what, paths),
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);
                 self.bring(PaneKind::Import);

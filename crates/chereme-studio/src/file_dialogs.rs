@@ -9,7 +9,7 @@ use std::task::{Context, Poll, Wake as TaskWake};
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::command::Command;
-use crate::words::{Language, Text, shell as words};
+use crate::words::{Language, Text, shell as words, studies};
 use crate::work::begin::Begin;
 use crate::work::desk::Wake;
 
@@ -30,6 +30,12 @@ pub(crate) enum Choose {
     Folder,
     /// A corpus to merge into the open one.
     Merge,
+    /// A folder for the questionnaire of a study.
+    Questionnaire,
+    /// Files of answers to a study.
+    Answers,
+    /// Where to write the report of a study.
+    Report,
     /// A media file for the recording with that row id; it replaces the track with the given row id, if any.
     Media(i64, Option<i64>),
 }
@@ -114,6 +120,9 @@ impl Choose {
             Self::CorpusOfFolder | Self::Folder => words::START_IMPORT,
             Self::Files => words::CHOOSE_FILES,
             Self::Merge => words::CHOOSE_CORPUS,
+            Self::Questionnaire => studies::FOLDER,
+            Self::Answers => studies::DISK_FILES,
+            Self::Report => studies::REPORT_PATH,
             Self::Media(..) => words::CHOOSE_MEDIA,
         }
     }
@@ -125,6 +134,9 @@ impl Choose {
                 return Some(Command::Import(paths));
             }
             _ if paths.is_empty() => return None,
+            Self::Questionnaire | Self::Answers | Self::Report => {
+                return Some(Command::Studied(self, paths));
+            }
             Self::Media(recording, track) => {
                 return Some(Command::Media(recording, track, paths.swap_remove(0)));
             }
@@ -156,7 +168,7 @@ fn native(what: Choose, language: Language) -> Paths {
                 .save_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::CorpusOfFolder | Choose::Folder => {
+        Choose::CorpusOfFolder | Choose::Folder | Choose::Questionnaire => {
             let folder = dialog.pick_folder();
             Box::pin(async move { one(folder.await) })
         }
@@ -164,7 +176,14 @@ fn native(what: Choose, language: Language) -> Paths {
             let file = dialog.pick_file();
             Box::pin(async move { one(file.await) })
         }
-        Choose::Files => {
+        Choose::Report => {
+            let file = dialog
+                .add_filter("HTML", &["html"])
+                .set_file_name("report.html")
+                .save_file();
+            Box::pin(async move { one(file.await) })
+        }
+        Choose::Files | Choose::Answers => {
             let files = dialog.pick_files();
             Box::pin(async move {
                 let files = files.await.unwrap_or_default();

@@ -34,8 +34,8 @@ pub(crate) fn is_small(size: Vec2) -> bool {
 pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
     use LinearDir::{Horizontal, Vertical};
     use PaneKind::{
-        Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage,
-        Timeline,
+        Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search,
+        Stage, Studies, Timeline,
     };
     let mut tiles = Tiles::default();
     let mut tabs = |kinds: &[PaneKind]| {
@@ -46,19 +46,23 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
         match busy {
             Busy::Annotating => {
                 let above = [
-                    Stage, Film, Library, Search, Map, Faces, Recombine, Cue, Import, Inspector,
-                    History,
+                    Stage, Film, Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue,
+                    Import, Inspector, History,
                 ];
                 let parts = [(tabs(&above), 0.6), (tabs(&[Timeline]), 0.4)];
                 shares(&mut tiles, Vertical, &parts)
             }
             Busy::Recombining => {
-                let left = tabs(&[Library, Search, Map, Faces, Recombine, Cue, Import]);
+                let left = tabs(&[
+                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
+                ]);
                 let side = tabs(&[Stage, Film, Timeline, Inspector, History]);
                 shares(&mut tiles, Horizontal, &[(left, 0.46), (side, 0.54)])
             }
             Busy::Searching => {
-                let left = tabs(&[Library, Search, Map, Faces, Recombine, Cue, Import]);
+                let left = tabs(&[
+                    Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
+                ]);
                 let side = [
                     (tabs(&[Stage]), 0.64),
                     (tabs(&[Timeline, Inspector, Film, History]), 0.36),
@@ -68,7 +72,9 @@ pub(crate) fn of(busy: Busy, small: bool) -> Tree<PaneKind> {
             }
         }
     } else {
-        let left = tabs(&[Library, Search, Map, Faces, Recombine, Cue, Import]);
+        let left = tabs(&[
+            Library, Search, Map, Faces, Agreement, Studies, Recombine, Cue, Import,
+        ]);
         let stage = tabs(&[Stage]);
         // Three panes above each other would have too little height to read.
         let below = match busy {

@@ -77,7 +77,7 @@ fn tiny(window: &Window<'_>) -> BTreeSet<String> {
 /// Visits every pane in every layout.
 fn walk(window: &mut Window<'_>, label: &str) {
     const LAYOUTS: [Key; 3] = [Key::F1, Key::F2, Key::F3];
-    const PANES: [(Modifiers, Key); 8] = [
+    const PANES: [(Modifiers, Key); 10] = [
         (Modifiers::SHIFT, Key::F1),
         (Modifiers::SHIFT, Key::F2),
         (Modifiers::SHIFT, Key::F3),
@@ -86,6 +86,8 @@ fn walk(window: &mut Window<'_>, label: &str) {
         (Modifiers::COMMAND, Key::R),
         (Modifiers::COMMAND, Key::H),
         (Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::I),
+        (Modifiers::COMMAND.plus(Modifiers::ALT), Key::B),
+        (Modifiers::COMMAND.plus(Modifiers::ALT), Key::O),
     ];
     for layout in LAYOUTS {
         window.key_press_modifiers(Modifiers::COMMAND, layout);

@@ -7,7 +7,7 @@ use std::path::PathBuf;
 use anyhow::Result;
 use chereme_corpus::{
     AgreeOptions, Agreement, Disagreement, DisagreementSide, Error, Figure, Moment, Name, Progress,
-    Quartiles, Step,
+    Quartiles, Step, USUAL_MEASURES,
 };
 use serde_json::json;
 
@@ -96,8 +96,6 @@ pub(crate) struct Args {
     into: Option<String>,
 }
 
-/// The measures that are printed if nobody asks for others.
-const USUAL: [&str; 5] = ["kappa_ipf", "raw", "matched", "alpha_u", "gamma"];
 /// The most rows of values that are printed.
 const MOST_ROWS: usize = 30;
 
@@ -137,7 +135,7 @@ impl Args {
     /// Returns whether a measure is printed.
     fn prints(&self, measure: &str) -> bool {
         match self.measures.is_empty() {
-            true => USUAL.contains(&measure),
+            true => USUAL_MEASURES.contains(&measure),
             false => self.measures.iter().any(|it| it == measure || it == "all"),
         }
     }
@@ -302,9 +300,8 @@ fn pair(it: &chereme_corpus::PairAgreement, output: &Output) -> Vec<String> {
 
 /// Returns the value of a measure, or the reason why it has none.
 fn value(figure: &Figure, output: &Output) -> String {
-    match (figure.value, &figure.why) {
-        // Adding 0 turns a rounded -0 into 0.
-        (Some(value), _) => format!("{:.3}", (1e3 * value).round() / 1e3 + 0.0),
+    match (figure.text(), &figure.why) {
+        (Some(value), _) => value,
         (None, Some(why)) => format!("- ({})", output.spoken(why)),
         (None, None) => String::new(),
     }
@@ -409,6 +406,6 @@ mod tests {
         for measure in MEASURES {
             assert!(help.contains(measure), "{measure}");
         }
-        assert!(USUAL.iter().all(|it| MEASURES.contains(it)));
+        assert!(USUAL_MEASURES.iter().all(|it| MEASURES.contains(it)));
     }
 }

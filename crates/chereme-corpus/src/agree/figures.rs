@@ -52,6 +52,9 @@ pub const MEASURES: [&str; 23] = [
     "boundaries",
 ];
 
+/// The measures that are shown to people who ask for no others.
+pub const USUAL_MEASURES: [&str; 5] = ["kappa_ipf", "raw", "matched", "alpha_u", "gamma"];
+
 /// The length of a frame of the measures of frames, in milliseconds.
 const FRAME: i64 = 10;
 /// The step of boundary similarity in milliseconds, and how many steps apart two boundaries are two.
@@ -84,6 +87,16 @@ pub struct FigureInterval {
     /// What was drawn: `units`, `recordings`, or the `samples` of gamma's chance, whose interval says nothing about other
     /// recordings.
     pub of: &'static str,
+}
+
+impl Figure {
+    /// Returns the value with three decimals, never as -0.000.
+    #[must_use]
+    pub fn text(&self) -> Option<String> {
+        // Adding 0 turns a rounded -0 into 0.
+        self.value
+            .map(|value| format!("{:.3}", (1e3 * value).round() / 1e3 + 0.0))
+    }
 }
 
 impl From<Measure> for Figure {

@@ -2,6 +2,7 @@
 //! of disagreements, and their adjudication on a third tier.
 
 mod adjudicate;
+mod alike;
 mod disagreements;
 mod figures;
 #[cfg(test)]
@@ -11,8 +12,9 @@ mod tiers;
 use serde::Serialize;
 
 pub use adjudicate::Adjudicated;
+pub use alike::alike_tiers;
 pub use disagreements::{Disagreement, DisagreementCounts, DisagreementKind, DisagreementSide};
-pub use figures::{Confusion, Figure, FigureInterval, MEASURES, ValueAgreement};
+pub use figures::{Confusion, Figure, FigureInterval, MEASURES, USUAL_MEASURES, ValueAgreement};
 
 use crate::Corpus;
 use crate::address::Name;

@@ -134,6 +134,19 @@ pub(crate) fn participant_count(connection: &Connection, study: i64) -> Result<u
     Ok(u64::try_from(count).unwrap_or_default())
 }
 
+/// Returns how many participants a study has, how many of them finished, and the number of all answers.
+pub(crate) fn counts(connection: &Connection, study: i64) -> Result<[u64; 3]> {
+    let counts: [i64; 3] = connection
+        .prepare_cached(
+            "SELECT count(*), coalesce(sum(finished), 0),
+                 (SELECT count(*) FROM study_answer WHERE participant_id IN
+                     (SELECT id FROM study_participant WHERE study_id = ?1))
+             FROM study_participant WHERE study_id = ?1",
+        )?
+        .query_row([study], |row| Ok([row.get(0)?, row.get(1)?, row.get(2)?]))?;
+    Ok(counts.map(|it| u64::try_from(it).unwrap_or_default()))
+}
+
 /// Returns the participants of a study with their row numbers, by code; only the one with that code, if one is given.
 pub(crate) fn participants(
     connection: &Connection,

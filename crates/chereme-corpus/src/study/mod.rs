@@ -13,6 +13,7 @@
 //! | `build` | the questionnaire |
 //! | `import`, `files`, `fits` | answers from files, checked against the plan |
 //! | `long`, `wide`, `rows` | answers as a table: one answer a row, or one participant a row |
+//! | `overview` | all studies at a glance, and the clip of a trial |
 //! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
@@ -25,6 +26,7 @@ mod fits;
 mod import;
 mod long;
 pub mod order;
+mod overview;
 pub mod plan;
 pub mod report;
 mod request;
@@ -44,7 +46,6 @@ use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
-use crate::address::Address;
 use crate::db::studies as db;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
@@ -55,6 +56,7 @@ use stored::Stored;
 pub use build::{Questionnaire, QuestionnaireOptions};
 pub use distances::DISTANCE;
 pub use import::{AnswersFile, AnswersReport};
+pub use overview::StudyOverview;
 pub use request::{StudyRequest, words};
 
 /// A study with everything that was answered.
@@ -80,10 +82,14 @@ pub struct PlannedStudy {
 }
 
 /// The movement of a trial.
-pub(crate) struct StudyClip {
-    pub(crate) clip: Clip,
-    pub(crate) anatomy: Arc<Anatomy>,
-    pub(crate) faces: Vec<Face>,
+#[derive(Debug, Clone)]
+pub struct StudyClip {
+    /// The movement.
+    pub clip: Clip,
+    /// What the joints are.
+    pub anatomy: Arc<Anatomy>,
+    /// The face in each frame; empty if it is at rest.
+    pub faces: Vec<Face>,
 }
 
 impl Corpus {
@@ -204,7 +210,7 @@ impl Corpus {
                 total,
                 unit: Unit::Items,
             })?;
-            match self.study_clip(text) {
+            match self.trial_clip(text) {
                 Ok(clip) => take(&trials, clip)?,
                 Err(Error::Stopped) => return Err(Error::Stopped),
                 Err(error) => {
@@ -229,25 +235,6 @@ impl Corpus {
             1 => Err(errors.remove(0)),
             _ => Err(Error::Several { errors }),
         }
-    }
-
-    /// Returns the movement of an address or a recipe.
-    fn study_clip(&mut self, text: &str) -> Result<StudyClip> {
-        if let Ok(address) = text.parse::<Address>()
-            && let Ok(moving) = self.movement(&address)
-        {
-            return Ok(StudyClip {
-                clip: moving.clip,
-                anatomy: Arc::new(moving.anatomy),
-                faces: moving.faces,
-            });
-        }
-        let made = self.preview(text)?;
-        Ok(StudyClip {
-            clip: made.clip,
-            anatomy: made.anatomy,
-            faces: made.faces,
-        })
     }
 }
 

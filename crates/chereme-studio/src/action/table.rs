@@ -7,7 +7,8 @@
 
 use super::{ActionRow, Context, Menu, Owner};
 use crate::panes::PaneKind::{
-    Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search, Stage, Timeline,
+    Agreement, Cue, Faces, Film, History, Import, Inspector, Library, Map, Recombine, Search,
+    Stage, Studies, Timeline,
 };
 use crate::words::{Text, shell};
 use crate::work::{Job, Outcome};
@@ -120,6 +121,10 @@ actions! {
         Annotation, Corpus, In(Timeline), "Alt+Home" "=" "=";
     LastAnnotation "annotation.last" "Last annotation" | "Dernière annotation"
         Annotation, Corpus, In(Timeline), "Alt+End" "=" "=";
+    NextDisagreement "agreement.next" "Next disagreement of two annotators" | "Désaccord suivant de deux annotateurs"
+        Annotation, Corpus, In(Agreement), repeats, "Alt+PageDown" "=" "=";
+    PreviousDisagreement "agreement.previous" "Previous disagreement of two annotators" | "Désaccord précédent de deux annotateurs"
+        Annotation, Corpus, In(Agreement), repeats, "Alt+PageUp" "=" "=";
     AnnotationBelow "annotation.below" "Annotation on the tier below" | "Annotation sur l’acteur du dessous"
         Annotation, Corpus, In(Timeline), repeats, "Alt+Down" "=" "=";
     AnnotationAbove "annotation.above" "Annotation on the tier above" | "Annotation sur l’acteur du dessus"
@@ -402,6 +407,10 @@ actions! {
         Panes, Corpus, Shows(Cue), "Ctrl+Alt+L" "=" "=";
     ShowFaces "pane.faces" "Show the faces" | "Afficher les visages"
         Panes, Corpus, Shows(Faces), "Ctrl+Alt+V" "=" "=";
+    ShowAgreement "pane.agreement" "Agreement of two annotators" | "Accord de deux annotateurs"
+        Panes, Corpus, Shows(Agreement), "Ctrl+Alt+B" "=" "=";
+    ShowStudies "pane.studies" "Studies: what people see" | "Études : ce que les gens voient"
+        Panes, Corpus, Shows(Studies), "Ctrl+Alt+O" "=" "=";
     ShowHistory "pane.history" "Show the history" | "Afficher l’historique"
         Panes, Corpus, Shows(History), "Ctrl+H" "=" "=";
     OnlyPane "pane.only" "Only this pane, or all again" | "Seulement ce panneau, ou tous à nouveau"

@@ -179,6 +179,9 @@ impl Notices {
                 | Outcome::Changed
                 | Outcome::Imported(_)
                 | Outcome::Merged(_)
+                | Outcome::Adjudicated(_)
+                | Outcome::Planned(_)
+                | Outcome::AnswersImported(_)
                 | Outcome::Recombined(_)
                 | Outcome::Deleted(_)
                 | Outcome::Undone(_)

@@ -42,7 +42,8 @@ impl TypedPath {
 fn why_not(what: Choose, path: &Path) -> Option<(Text, PathBuf)> {
     let missing = |there: bool| (!there).then(|| (words::PATH_MISSING, path.to_owned()));
     match what {
-        Choose::Files => missing(path.exists()),
+        Choose::Files | Choose::Answers => missing(path.exists()),
+        Choose::Questionnaire | Choose::Report => None,
         Choose::Corpus | Choose::Merge | Choose::Media(..) => missing(path.is_file()),
         Choose::Folder | Choose::CorpusOfFolder => missing(path.is_dir()),
         Choose::NewCorpus | Choose::Copy => {
@@ -64,7 +65,11 @@ fn button_text(what: Choose) -> Text {
         Choose::NewCorpus => words::START_TYPED_NEW,
         Choose::Copy => words::PATH_SAVE,
         Choose::Files | Choose::Folder | Choose::CorpusOfFolder => words::START_TYPED_IMPORT,
-        Choose::Merge | Choose::Media(..) => words::PATH_CHOOSE,
+        Choose::Merge
+        | Choose::Media(..)
+        | Choose::Questionnaire
+        | Choose::Answers
+        | Choose::Report => words::PATH_CHOOSE,
     }
 }
 

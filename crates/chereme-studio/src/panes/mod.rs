@@ -3,6 +3,7 @@
 //! To add one: a variant of [`PaneKind`] with its title, a field of [`Panes`] with its arms, a place in
 //! [`layout::of`](crate::layout::of), and an action that shows it.
 
+pub(crate) mod agreement;
 pub(crate) mod carry;
 pub(crate) mod combo;
 pub(crate) mod complete;
@@ -18,6 +19,7 @@ mod notated;
 pub(crate) mod recombine;
 pub(crate) mod search;
 pub(crate) mod stage;
+pub(crate) mod studies;
 pub(crate) mod timeline;
 pub(crate) mod without_movement;
 
@@ -40,6 +42,8 @@ pub(crate) enum PaneKind {
     Map,
     Cue,
     Faces,
+    Agreement,
+    Studies,
     Stage,
     Timeline,
     Search,
@@ -51,11 +55,13 @@ pub(crate) enum PaneKind {
 }
 
 impl PaneKind {
-    pub(crate) const ALL: [Self; 12] = [
+    pub(crate) const ALL: [Self; 14] = [
         Self::Library,
         Self::Map,
         Self::Cue,
         Self::Faces,
+        Self::Agreement,
+        Self::Studies,
         Self::Stage,
         Self::Timeline,
         Self::Search,
@@ -72,6 +78,8 @@ impl PaneKind {
             Self::Map => words::map::TITLE,
             Self::Cue => words::cue::TITLE,
             Self::Faces => words::faces::TITLE,
+            Self::Agreement => words::agreement::TITLE,
+            Self::Studies => words::studies::TITLE,
             Self::Stage => words::stage::TITLE,
             Self::Timeline => words::timeline::TITLE,
             Self::Search => words::search::TITLE,
@@ -129,6 +137,8 @@ pub(crate) struct Panes {
     pub(crate) map: map::Map,
     pub(crate) cue: cue::CuePane,
     pub(crate) faces: faces::Faces,
+    pub(crate) agreement: agreement::AgreementPane,
+    pub(crate) studies: studies::Studies,
     pub(crate) stage: stage::Stage,
     pub(crate) timeline: timeline::Timeline,
     pub(crate) search: search::Search,
@@ -146,6 +156,8 @@ impl Panes {
             PaneKind::Map => &mut self.map,
             PaneKind::Cue => &mut self.cue,
             PaneKind::Faces => &mut self.faces,
+            PaneKind::Agreement => &mut self.agreement,
+            PaneKind::Studies => &mut self.studies,
             PaneKind::Stage => &mut self.stage,
             PaneKind::Timeline => &mut self.timeline,
             PaneKind::Search => &mut self.search,

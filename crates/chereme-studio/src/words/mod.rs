@@ -22,6 +22,7 @@ macro_rules! texts {
 }
 
 pub(crate) mod actions;
+pub(crate) mod agreement;
 pub(crate) mod cue;
 pub(crate) mod export;
 pub(crate) mod faces;
@@ -40,14 +41,16 @@ pub(crate) mod search;
 pub(crate) mod shell;
 pub(crate) mod stage;
 pub(crate) mod steps;
+pub(crate) mod studies;
 pub(crate) mod timeline;
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 20] = [
+    const TABLES: [&[(&str, Text)]; 22] = [
         actions::ALL,
+        agreement::ALL,
         cue::ALL,
         export::ALL,
         faces::ALL,
@@ -65,6 +68,7 @@ mod tests {
         shell::ALL,
         stage::ALL,
         steps::ALL,
+        studies::ALL,
         timeline::ALL,
         gestures::ALL,
     ];

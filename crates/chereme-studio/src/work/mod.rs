@@ -10,6 +10,7 @@
 
 pub(crate) mod analysis;
 pub(crate) mod begin;
+pub(crate) mod comparing;
 pub(crate) mod desk;
 pub(crate) mod editing;
 pub(crate) mod exchange;
@@ -19,6 +20,7 @@ mod outcome;
 pub(crate) mod recombining;
 pub(crate) mod recordings;
 pub(crate) mod searching;
+pub(crate) mod studying;
 pub(crate) mod whole_corpus;
 
 use std::fmt;
@@ -153,12 +155,14 @@ pub(crate) enum Lane {
     Little,
     /// Movement for measurement.
     Measure,
+    /// Comparisons of annotators and reports of studies; a search does not wait for them.
+    Compare,
     /// Writing of files.
     Export,
 }
 
 impl Lane {
-    pub(crate) const ALL: [Self; 8] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::Edit,
         Self::Ask,
         Self::Make,
@@ -166,6 +170,7 @@ impl Lane {
         Self::Movement,
         Self::Little,
         Self::Measure,
+        Self::Compare,
         Self::Export,
     ];
 }

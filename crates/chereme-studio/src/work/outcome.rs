@@ -1,11 +1,15 @@
 //! The results of the use cases, which panes and notices match on.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
+use chereme_corpus::study::report::Report;
+use chereme_corpus::study::{AnswersReport, Questionnaire, StudyClip, StudyOverview};
 use chereme_corpus::{
-    AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves, Deleted, Details,
-    ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport, Moving, Onsets,
-    OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap, Suggestions,
+    Adjudicated, Agreement, AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves,
+    Deleted, Details, ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport,
+    Moving, Onsets, OperationRow, Picture, PointsPiece, Proposed, Recombination, SignMap,
+    Suggestions,
 };
 use eframe::egui::ColorImage;
 
@@ -59,6 +63,26 @@ pub(crate) enum Outcome {
     Expressions(Arc<Expressions>),
     /// Performances were ranked.
     Chosen(Arc<Choice>),
+    /// Two annotators were compared.
+    Agreed(Arc<Agreement>),
+    /// A third tier was written from those of two annotators.
+    Adjudicated(Adjudicated),
+    /// The studies.
+    Studies(Arc<Vec<StudyOverview>>),
+    /// The clip of a trial was made.
+    TrialClip(Arc<StudyClip>),
+    /// The study of that name was planned.
+    Planned(String),
+    /// A questionnaire was built.
+    QuestionnaireBuilt(Box<Questionnaire>),
+    /// Answers to a study were imported.
+    AnswersImported(Box<AnswersReport>),
+    /// The report of a study was made.
+    Reported(Arc<Report>),
+    /// Whether the desktop has a program that opened a file.
+    Opened(bool),
+    /// The report of a study was written to these files.
+    ReportWritten(Vec<PathBuf>),
     /// The begin and end of non-manuals were measured.
     Onsets(Arc<Onsets>),
     /// Movement was generated.

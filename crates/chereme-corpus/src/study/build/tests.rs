@@ -247,3 +247,18 @@ fn a_table_makes_the_first_design_of_the_founding_paper() {
         assert!(error.remedy().is_some());
     }
 }
+
+#[test]
+fn the_clip_of_a_trial_is_that_of_its_address_or_recipe() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let own = corpus.trial_clip("BOL").expect("a clip");
+    let address = "BOL".parse().expect("an address");
+    let moving = corpus.movement(&address).expect("movement");
+    assert_eq!(own.clip, moving.clip);
+    let higher = corpus
+        .trial_clip("BOL | place both by up 10cm")
+        .expect("a clip");
+    assert_ne!(higher.clip, own.clip);
+    assert!(corpus.trial_clip("NOBODY").is_err());
+}

@@ -90,6 +90,19 @@ fn answers_are_imported_once_exported_as_a_table_and_read_again() {
         report.files.iter().all(|it| it.findings.is_empty()),
         "{report:?}"
     );
+    let all = corpus.studies().expect("listed");
+    let counts: Vec<_> = all
+        .iter()
+        .map(|it| {
+            (
+                it.plan.name.as_str(),
+                it.participants,
+                it.finished,
+                it.answers,
+            )
+        })
+        .collect();
+    assert_eq!(counts, [("bowls", 2, 1, 4)]);
     let study = corpus.study("bowls").expect("read");
     let zoe = &study.participants[0];
     assert_eq!((zoe.code.as_str(), zoe.answers.len()), ("Zoé-1", 4));

@@ -1,0 +1,194 @@
+//! The list of disagreements: its filters, and rows that open their places.
+
+use chereme_corpus::{Agreement, DisagreementKind};
+use eframe::egui::{EventFilter, Id, Key, Modifiers, Response, ScrollArea, Ui};
+
+use super::data::{Kinds, Order};
+use super::{AgreementPane, View};
+use crate::action::Action;
+use crate::command::Command;
+use crate::context::{Outbox, PaneInput};
+use crate::panes::{combo, list_row_at, scrolled_to};
+use crate::words::{agreement as words, fill};
+
+/// The height of a row, in heights of a button.
+const ROW: f32 = 1.9;
+
+fn row_id(at: usize) -> Id {
+    Id::unique("disagreement").with(at)
+}
+
+impl AgreementPane {
+    /// Shows the names of the lists and tables.
+    pub(super) fn views(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
+        let counted = |text, n: usize| fill(seen.say(text), &[("n", &n)]);
+        let mut views = vec![
+            (
+                View::Disagreements,
+                counted(words::DISAGREEMENTS, found.list.len()),
+            ),
+            (View::Values, seen.say(words::VALUES).to_owned()),
+            (View::Confusion, seen.say(words::CONFUSION).to_owned()),
+            (View::Measures, seen.say(words::ALL_MEASURES).to_owned()),
+        ];
+        if found.pairs.len() > 1 {
+            let text = counted(words::RECORDINGS, found.pairs.len());
+            views.push((View::Recordings, text));
+        } else if self.view == View::Recordings {
+            self.view = View::Disagreements;
+        }
+        ui.horizontal_wrapped(|ui| {
+            for (view, name) in views {
+                ui.selectable_value(&mut self.view, view, name);
+            }
+        });
+    }
+
+    /// Shows the list.
+    pub(super) fn list(
+        &mut self,
+        ui: &mut Ui,
+        seen: &PaneInput<'_>,
+        (found, names): (&Agreement, &[String; 2]),
+        out: &mut Outbox,
+    ) {
+        if found.list.is_empty() {
+            ui.label(seen.say(words::NONE));
+            return;
+        }
+        let counts = &found.disagreements;
+        let only = |tier: &String, n: u64| {
+            let values: [(&str, &dyn std::fmt::Display); 2] = [("tier", tier), ("n", &n)];
+            fill(seen.say(words::ONLY), &values)
+        };
+        let counted = |text, n: u64| fill(seen.say(text), &[("n", &n)]);
+        let kinds = [
+            (Kinds::All, seen.say(words::EVERY_KIND).to_owned()),
+            (
+                Kinds::Only(DisagreementKind::OnlyA),
+                only(&names[0], counts.only_a),
+            ),
+            (
+                Kinds::Only(DisagreementKind::OnlyB),
+                only(&names[1], counts.only_b),
+            ),
+            (
+                Kinds::Only(DisagreementKind::Value),
+                counted(words::OTHER_VALUE, counts.value),
+            ),
+            (
+                Kinds::Only(DisagreementKind::Boundary),
+                counted(words::BOUNDARY, counts.boundary),
+            ),
+        ];
+        let orders = [
+            (Order::Costliest, seen.say(words::COSTLIEST).to_owned()),
+            (Order::Time, seen.say(words::BY_TIME).to_owned()),
+        ];
+        ui.horizontal_wrapped(|ui| {
+            combo::named(ui, seen.say(words::KIND), &mut self.kinds, &kinds);
+            combo::named(ui, seen.say(words::ORDER), &mut self.order, &orders);
+        });
+        self.refresh(seen.language);
+        ui.horizontal_wrapped(|ui| {
+            for (action, text) in [
+                (Action::PreviousDisagreement, words::PREVIOUS),
+                (Action::NextDisagreement, words::NEXT),
+            ] {
+                let button = ui.button(seen.say(text));
+                if button.on_hover_text(seen.keys.text(action)).clicked() {
+                    out.send(Command::Do(action));
+                }
+            }
+            let values: [(&str, &dyn std::fmt::Display); 2] = [
+                ("n", &self.at.map_or(0, |at| at + 1)),
+                ("of", &self.rows.len()),
+            ];
+            ui.weak(fill(seen.say(words::NTH), &values));
+        });
+        if self.rows.is_empty() {
+            ui.label(seen.say(words::NONE_OF_KIND));
+            return;
+        }
+        self.rows_of_list(ui, seen, out);
+    }
+
+    fn rows_of_list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+        let height = ui.spacing().interact_size.y * ROW;
+        self.keys(ui, seen, out);
+        let mut area = ScrollArea::vertical()
+            .id_salt("disagreements")
+            .auto_shrink(false);
+        if let Some(at) = self.reach {
+            let whole = height + ui.spacing().item_spacing.y;
+            let room = ui.available_height();
+            area = area.vertical_scroll_offset(scrolled_to(at, whole, self.scrolled, room));
+        }
+        let rows = std::mem::take(&mut self.rows);
+        let mut opened = None;
+        let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
+            for at in range {
+                let row = &rows[at];
+                let chosen = self.at == Some(at);
+                let text = (row.name.as_str(), row.about.as_str());
+                let response = list_row_at(ui, row_id(at), (height, 0.0), chosen, text);
+                self.focus(ui, &response, at);
+                if response.clicked() {
+                    opened = Some(at);
+                }
+            }
+        });
+        self.scrolled = shown.state.clamped_offset().y;
+        self.rows = rows;
+        if let Some(at) = opened {
+            self.open(at, seen, out);
+            self.reach = Some(at);
+        }
+    }
+
+    /// Takes the arrow keys if a row of the list has the focus: each row is opened as it is reached.
+    fn keys(&mut self, ui: &Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
+        let Some(focused) = ui.memory(|memory| memory.focused()) else {
+            return;
+        };
+        let now = self.at.filter(|at| focused == row_id(*at));
+        let Some(now) = now.or((focused == row_id(0)).then_some(0)) else {
+            return;
+        };
+        let last = self.rows.len() - 1;
+        let mut to = None;
+        ui.input_mut(|input| {
+            for (key, by) in [
+                (Key::ArrowUp, -1),
+                (Key::ArrowDown, 1),
+                (Key::PageUp, -8),
+                (Key::PageDown, 8),
+                (Key::Home, isize::MIN / 2),
+                (Key::End, isize::MAX / 2),
+            ] {
+                if input.consume_key(Modifiers::NONE, key) {
+                    to = Some(now.saturating_add_signed(by).min(last));
+                }
+            }
+        });
+        if let Some(to) = to {
+            self.open(to, seen, out);
+            self.reach = Some(to);
+        }
+    }
+
+    /// Gives the focus to the row that the keys moved to, and keeps the arrow keys in the list.
+    fn focus(&mut self, ui: &Ui, response: &Response, at: usize) {
+        if self.reach == Some(at) {
+            self.reach = None;
+            response.request_focus();
+        }
+        if response.has_focus() {
+            let arrows = EventFilter {
+                vertical_arrows: true,
+                ..EventFilter::default()
+            };
+            ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+        }
+    }
+}

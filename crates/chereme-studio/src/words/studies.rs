@@ -1,0 +1,104 @@
+//! Texts of the pane of studies: plans, the questionnaire, answers and the report.
+
+texts! {
+    TITLE: "Studies", "Études";
+    NONE: "No study yet. A study shows clips of signs to people and asks about them.", "Pas encore d’étude. Une étude montre des signes à des personnes et les questionne.";
+    NEW: "New study", "Nouvelle étude";
+    CLOSE_NEW: "Back to the studies", "Retour aux études";
+    ROW_ABOUT: "{trials} trials: {items} × {conditions} · {people} people, {answers} answers", "{trials} essais : {items} × {conditions} · {people} personnes, {answers} réponses";
+    DELETE: "Delete the study", "Supprimer l’étude";
+    DELETE_TIP: "Deletes the plan and all answers; an undo brings them back", "Supprime le plan et toutes les réponses ; une annulation les rend";
+    PLAN: "Plan", "Plan";
+    QUESTIONNAIRE: "Questionnaire", "Questionnaire";
+    ANSWERS: "Answers", "Réponses";
+    REPORT: "Report", "Rapport";
+
+    NAME: "Name of the study", "Nom de l’étude";
+    SHOWN_TITLE: "Title for participants", "Titre pour les participants";
+    SHOWN_TITLE_HINT: "the name, if empty", "le nom, si vide";
+    ITEMS: "Signs", "Signes";
+    ITEMS_HINT: "glosses or token:12, separated by blanks", "gloses ou token:12, séparés par des blancs";
+    ADD_CHOSEN: "Add the chosen sign", "Ajouter le signe choisi";
+    ADD_CHOSEN_TIP: "The selected annotation, or the sign on the stage; signs can be dragged here from the library and the search, too", "L’annotation choisie ou le signe sur la scène ; on peut aussi glisser ici des signes du fonds et de la recherche";
+    CONDITION: "Name of condition {n}", "Nom de la condition {n}";
+    RECIPE: "Recipe of condition {n}, with {} for the sign", "Recette de la condition {n}, avec {} pour le signe";
+    CONDITIONS: "Conditions: a name, and a recipe with {} for the sign", "Conditions : un nom, et une recette avec {} pour le signe";
+    ADD_CONDITION: "Add a condition", "Ajouter une condition";
+    REMOVE: "Remove", "Retirer";
+    REMOVE_NTH: "Remove {what}", "Retirer {what}";
+    QUESTIONS: "Questions", "Questions";
+    QUESTION: "Question {n}", "Question {n}";
+    QUESTION_HINT: "realism, realism=1-7, place=left right", "realism, realism=1-7, place=gauche droite";
+    ADD_QUESTION: "Add a question", "Ajouter une question";
+    ASK_SIGN: "Ask which sign it was", "Demander quel signe c’était";
+    SCALE: "Highest answer of scales", "Plus haute réponse des échelles";
+    ORDER: "Order", "Ordre";
+    LATIN: "balanced Latin square", "carré latin équilibré";
+    RANDOM: "shuffled", "mélangé";
+    BETWEEN: "Each person sees a sign in one condition only", "Chaque personne voit un signe dans une seule condition";
+    BLOCKS: "Times that each clip is shown", "Nombre de fois que chaque extrait est montré";
+    STORE: "Store the plan", "Enregistrer le plan";
+    STORING: "Making each clip once", "Chaque extrait est fait une fois";
+    TASK_PLAN: "Planning a study", "Planification d’une étude";
+    NEEDS_NAME: "Name the study first", "Nommez d’abord l’étude";
+
+    TRIALS: "Trials ({n}); a click shows the clip on the stage", "Essais ({n}) ; un clic montre l’extrait sur la scène";
+    TRIAL: "{item}, {condition}", "{item}, {condition}";
+    MAKING: "Making the clip", "L’extrait se fait";
+    ASKED: "{name}: {answers}", "{name} : {answers}";
+    CAN_CHANGE: "Nobody has answered: a new plan of this name replaces it.", "Personne n’a répondu : un nouveau plan de ce nom le remplace.";
+
+    FOLDER: "Folder of the questionnaire", "Dossier du questionnaire";
+    CHOOSE: "Choose…", "Choisir…";
+    HEIGHT: "Height of films", "Hauteur des films";
+    RATE: "Pictures per second", "Images par seconde";
+    REPLACE: "Replace an existing questionnaire", "Remplacer un questionnaire existant";
+    BUILD: "Build the questionnaire", "Construire le questionnaire";
+    TASK_BUILD: "Building a questionnaire", "Construction d’un questionnaire";
+    BUILT: "{films} films, {orders} orders of trials, {kb} KB: {page}", "{films} films, {orders} ordres d’essais, {kb} Ko : {page}";
+    OPEN_PAGE: "Open the questionnaire", "Ouvrir le questionnaire";
+    ALIKE: "These clips give the same film: {one}; {other}", "Ces extraits donnent le même film : {one} ; {other}";
+    MISSING: "The plan names a picture that is missing: {path}", "Le plan nomme une image qui manque : {path}";
+    NEEDS_FOLDER: "Choose a folder first", "Choisissez d’abord un dossier";
+    ADDRESS_TIP: "The page works without a network. People answer it and send back the file that it saves.", "La page marche sans réseau. On y répond et on renvoie le fichier qu’elle enregistre.";
+
+    ANSWERS_PATH: "Files or folder of answers", "Fichiers ou dossier de réponses";
+    ANSWERS_HINT: "files that the questionnaire saved can be dropped here, too", "on peut aussi déposer ici les fichiers enregistrés par le questionnaire";
+    IMPORT: "Import the answers", "Importer les réponses";
+    TASK_ANSWERS: "Importing answers", "Importation de réponses";
+    IMPORTED: "{files} files: {added} people new, {replaced} replaced, {unchanged} unchanged; {answers} answers stored", "{files} fichiers : {added} personnes nouvelles, {replaced} remplacées, {unchanged} inchangées ; {answers} réponses enregistrées";
+    REFUSED: "{path}: refused", "{path} : refusé";
+    LINE: "line {line}: {message}", "ligne {line} : {message}";
+    NEEDS_FILES: "Choose files first", "Choisissez d’abord des fichiers";
+    PEOPLE: "{people} people answered, {finished} to the end; {answers} answers", "{people} personnes ont répondu, {finished} jusqu’à la fin ; {answers} réponses";
+
+    TASK_REPORT: "Reporting on a study", "Rapport d’une étude";
+    ANALYSED: "{recruited} people answered, {analysed} are analysed", "{recruited} personnes ont répondu, {analysed} sont analysées";
+    LEFT_OUT: "left out: {n}: {reason}", "laissées de côté : {n} : {reason}";
+    NOBODY: "Nobody has answered yet.", "Personne n’a encore répondu.";
+    COLUMN_QUESTION: "question", "question";
+    COLUMN_PART: "part", "partie";
+    COLUMN_CONDITION: "condition", "condition";
+    COLUMN_ANSWERS: "answers", "réponses";
+    COLUMN_MEAN: "mean", "moyenne";
+    COLUMN_SD: "s.d.", "é.-t.";
+    COLUMN_MEDIAN: "median", "médiane";
+    COLUMN_RIGHT: "right", "juste";
+    COMPARED: "Comparisons", "Comparaisons";
+    COLUMN_FIRST: "first", "premier";
+    COLUMN_SECOND: "second", "second";
+    COLUMN_DELTA: "delta", "delta";
+    COLUMN_INTERVAL: "interval", "intervalle";
+    COLUMN_POOLED: "p, all answers", "p, toutes les réponses";
+    COLUMN_PEOPLE: "p, people", "p, personnes";
+    OPEN_REPORT: "Open the report", "Ouvrir le rapport";
+    OPEN_REPORT_TIP: "Writes the page with all figures to this file, and opens it in a browser", "Écrit la page avec toutes les figures dans ce fichier, et l’ouvre dans un navigateur";
+    SAVE_REPORT: "Save the report", "Enregistrer le rapport";
+    REPORT_PATH: "File of the report (.html)", "Fichier du rapport (.html)";
+    SAVED: "Saved: {path}", "Enregistré : {path}";
+    TASK_OPEN: "Opening a page", "Ouverture d’une page";
+    NOT_OPENED: "No program could open the page; open it by hand.", "Aucun programme n’a pu ouvrir la page ; ouvrez-la à la main.";
+    TASK_SAVE: "Writing a report", "Écriture d’un rapport";
+    NEEDS_FILE: "Choose a file first", "Choisissez d’abord un fichier";
+    DISK_FILES: "Files of answers", "Fichiers de réponses";
+}

@@ -1,0 +1,214 @@
+//! The pane of studies, used like a person: a plan with previews, the questionnaire, dropped answers, the report.
+
+mod common;
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chereme_corpus::Corpus;
+use chereme_corpus::study::answers::{
+    ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
+};
+use chereme_corpus::study::plan::Role as TrialRole;
+use chereme_studio::Language;
+use common::tiers::{ALT, CTRL, operations, stored};
+use common::*;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{DroppedFile, DroppedFileHandle, Event, Key};
+use egui_kittest::kittest::{NodeT, Queryable};
+
+fn contains(window: &Window<'_>, label: &str) -> bool {
+    window.query_all_by_label_contains(label).next().is_some()
+}
+
+fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
+    let corpus = Some(small_corpus(folder));
+    let mut window = window(chereme_studio::Options {
+        corpus,
+        language,
+        ..options(folder)
+    });
+    until(&mut window, "the corpus", |it| contains(it, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(CTRL, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL | ALT, Key::O);
+    window.run_steps(3);
+    idle(&mut window);
+    window
+}
+
+fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
+    window.get_by_label(label).focus();
+    window.run_steps(2);
+    window.get_by_label(label).type_text(text);
+    window.run_steps(3);
+}
+
+/// Writes the answers of a participant who saw both trials.
+fn write_answers(folder: &Path, sha256: &str, code: &str, values: [i64; 2]) -> PathBuf {
+    let answer = |(n, (condition, value)): (u32, (&str, i64))| Answer {
+        n,
+        block: 1,
+        part: String::new(),
+        item: "ESCARGOT".into(),
+        condition: condition.into(),
+        role: TrialRole::Main,
+        question: "realism".into(),
+        scale: Some([1, 5]),
+        value: Some(value),
+        choice: None,
+        right: None,
+        plays: 1,
+        ms: 900,
+        hidden: 0,
+        slow: 0,
+    };
+    let answers = ["captured", "higher"].into_iter().zip(values);
+    let participant = Participant {
+        format: ANSWERS_FORMAT.into(),
+        version: ANSWERS_VERSION,
+        study: "places".into(),
+        plan_sha256: sha256.into(),
+        code: code.into(),
+        seed: 1,
+        started_day: "2026-11-27".into(),
+        language: "en".into(),
+        device: Device::default(),
+        consent: [("analysis".to_owned(), true)].into(),
+        profile: [].into(),
+        finished: true,
+        answers: (1..).zip(answers).map(answer).collect(),
+    };
+    let path = folder.join(format!("{code}.json"));
+    let text = serde_json::to_string(&participant).expect("text");
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+#[test]
+fn a_study_is_planned_built_answered_and_reported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    until(&mut window, "the empty list", |it| {
+        contains(it, "No study yet")
+    });
+    click(&mut window, "New study");
+    assert!(contains(&window, "a study needs trials"));
+    type_into(&mut window, "Name of the study", "places");
+    type_into(&mut window, "Signs", "ESCARGOT");
+    click(&mut window, "Add a condition");
+    type_into(&mut window, "Name of condition 2", "higher");
+    let recipe = "Recipe of condition 2, with {} for the sign";
+    type_into(&mut window, recipe, "place both by up 10cm");
+    // Each clip is shown on the stage before anything is stored.
+    click(&mut window, "ESCARGOT, higher");
+    until(&mut window, "the clip", |it| {
+        it.state().drawn() == Some("ESCARGOT, higher")
+    });
+    let before = operations(&window);
+    click(&mut window, "Store the plan");
+    stored(&mut window, before);
+    until(&mut window, "the study", |it| {
+        has(it, "Trials (2); a click shows the clip on the stage")
+    });
+    let path = window.state().corpus().expect("open").clone();
+    let corpus = Corpus::open(&path, "reader").expect("opened");
+    let study = corpus.study("places").expect("stored");
+    assert_eq!(
+        study.plan.trials[1].clip,
+        "ESCARGOT | place both by up 10cm"
+    );
+
+    click(&mut window, "Questionnaire");
+    for (number, text) in [("Height of films", "64"), ("Pictures per second", "5")] {
+        window
+            .get_by_role_and_label(Role::SpinButton, number)
+            .focus();
+        window.run_steps(2);
+        window.event(Event::Text(text.to_owned()));
+        window.run_steps(2);
+        window.key_press(Key::Enter);
+        window.run_steps(2);
+    }
+    click(&mut window, "Build the questionnaire");
+    until(&mut window, "the questionnaire", |it| {
+        contains(it, "2 films, ")
+    });
+    let page = folder.path().join("places-questionnaire/index.html");
+    assert!(page.is_file());
+
+    click(&mut window, "Answers");
+    for (code, values) in [("p1", [4, 2]), ("p2", [5, 3])] {
+        let file = write_answers(folder.path(), &study.plan_sha256, code, values);
+        window.input_mut().dropped_files.push(dropped(&file));
+        window.run_steps(3);
+        let before = operations(&window);
+        click(&mut window, "Import the answers");
+        stored(&mut window, before);
+    }
+    until(&mut window, "the answers", |it| {
+        has(it, "2 people answered, 2 to the end; 4 answers")
+    });
+
+    click(&mut window, "Report");
+    until(&mut window, "the report", |it| {
+        has(it, "2 people answered, 2 are analysed")
+    });
+    assert!(has(&window, "4.500") && has(&window, "2.500"));
+    click(&mut window, "Save the report");
+    until(&mut window, "the page", |it| contains(it, "Saved: "));
+    let page = folder.path().join("places-report.html");
+    let text = std::fs::read_to_string(page).expect("written");
+    assert!(text.contains("<html lang=\"en\">"));
+
+    // Undo takes the answers back one import after the other, and the plan.
+    for left in [2, 0] {
+        let before = operations(&window);
+        window.key_press_modifiers(CTRL, Key::Z);
+        stored(&mut window, before);
+        assert_eq!(corpus.studies().expect("read")[0].answers, left);
+    }
+    let before = operations(&window);
+    window.key_press_modifiers(CTRL, Key::Z);
+    stored(&mut window, before);
+    until(&mut window, "the empty list", |it| {
+        contains(it, "No study yet")
+    });
+}
+
+/// A file that is dropped on the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn dropped(path: &Path) -> DroppedFileHandle {
+    Arc::new(Dropped(path.to_owned()))
+}
+
+#[test]
+fn the_form_takes_the_chosen_sign_and_speaks_french() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::French);
+    click(&mut window, "Acteur Gloss");
+    window.key_press_modifiers(ALT, Key::ArrowRight);
+    window.run_steps(3);
+    click(&mut window, "Nouvelle étude");
+    click(&mut window, "Ajouter le signe choisi");
+    let items = window.get_by_label("Signes").accesskit_node().value();
+    assert!(items.is_some_and(|it| !it.is_empty()));
+    click(&mut window, "Demander quel signe c’était");
+    click(&mut window, "Retirer Question 2");
+    assert!(!has(&window, "Question 2"));
+    let store = window.get_by_label("Enregistrer le plan");
+    assert!(store.accesskit_node().is_disabled(), "the name is missing");
+}
