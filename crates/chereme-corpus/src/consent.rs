@@ -453,7 +453,7 @@ impl Permissions {
             }
             match licence {
                 Some(it) => drop(terms.insert(it.to_owned())),
-                // What is made from others has their terms.
+                // A sign made from others has their terms.
                 None if from_others => {}
                 None if !personal => drop(terms.extend(self.of_entry()?)),
                 None => return Err(Withheld::NoTerms),

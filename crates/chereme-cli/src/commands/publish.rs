@@ -17,13 +17,13 @@ use crate::words::Words;
 /// click and from any web server, in English and French, and asks no other computer for anything.
 ///
 /// Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and
-/// what was made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without
-/// --notes. The report says what was left out and why. A second publication replaces the first one, and a sign that was
-/// withdrawn leaves no trace; files of others in the folder stay.
+/// signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without
+/// --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a
+/// sign that was withdrawn leaves no trace; files of others in the folder stay.
 ///
-/// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn" (handshapes
-/// without a picture) and "left_out",
-/// each with "why", "movement" (whether only that was left out), "signs", "first" and "remedy".
+/// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
+/// (handshapes without a picture) and "left_out", each with "why", "movement" (whether only that was left out),
+/// "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -125,7 +125,7 @@ pub(super) const WORDS: Words = Words {
             "On cherche par mot, par configuration dessinée, par emplacement sur le corps, par mouvement, par une ou deux mains ; les signes qui conviennent presque suivent ceux qui conviennent. Chaque signe a une page avec son mouvement, que l’on peut ralentir, avancer image par image, inverser et voir de trois côtés, ses valeurs en mots, ses paires minimales et ses conditions d’utilisation. Le dossier s’ouvre d’un double clic et depuis tout serveur web, en anglais et en français, et ne demande rien à un autre ordinateur.",
         ),
         (
-            "Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and what was made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without --notes. The report says what was left out and why. A second publication replaces the first one, and a sign that was withdrawn leaves no trace; files of others in the folder stay.",
+            "Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a sign that was withdrawn leaves no trace; files of others in the folder stay.",
             "Seul est publié ce que tout le monde peut voir : les enregistrements dont les signeurs ont donné leur accord (`chereme consent`), sous des conditions indiquées, et ce qui n’est fait que de tels enregistrements. Les noms des signeurs, des enregistrements et des fichiers restent dehors ; les remarques aussi, sans --notes. Le compte rendu dit ce qui a été laissé de côté et pourquoi. Une deuxième publication remplace la première, et un signe retiré ne laisse pas de trace ; les fichiers d’autrui dans le dossier restent.",
         ),
         (

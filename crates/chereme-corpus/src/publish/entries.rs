@@ -43,11 +43,11 @@ pub(super) struct Entry {
 /// Whether a sign's movement is shown.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Moves {
-    /// There is none.
+    /// The sign has no movement.
     Never,
-    /// It may not be shown.
+    /// The movement may not be shown.
     Withheld,
-    /// It may be shown.
+    /// The movement may be shown.
     Public,
 }
 

@@ -112,7 +112,7 @@ impl Folder {
             return Err(fault(error));
         }
         self.done = true;
-        // The new folder is complete; what is left of the old one goes with the next publication.
+        // The new folder is complete. A rest of the old one goes with the next publication.
         drop(fs::remove_dir_all(&self.old));
         Ok((self.written.len(), self.bytes))
     }

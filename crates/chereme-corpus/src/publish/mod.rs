@@ -75,7 +75,7 @@ pub struct Published {
     pub terms: BTreeMap<String, usize>,
     /// The number of handshapes without a picture, because their values have no posture.
     pub undrawn: usize,
-    /// What was left out, by reason.
+    /// The signs that were left out, by reason.
     pub left_out: Vec<LeftOut>,
 }
 
