@@ -108,7 +108,7 @@ fn print_left_out(it: &LeftOut, output: &mut Output) -> Result<()> {
     let signs = output.counted(it.signs as u64, "signs");
     output.line(match it.movement {
         true => format!("without movement: {signs} ({first}): {why}"),
-        false => format!("left out: {signs} ({first}): {why}"),
+        false => format!("not published: {signs} ({first}): {why}"),
     })?;
     output.line(format!("  {}", output.spoken(it.remedy.text())))
 }
@@ -170,8 +170,8 @@ pub(super) const WORDS: Words = Words {
             "sans mouvement : {signs} ({first}) : {why}",
         ),
         (
-            "left out: {signs} ({first}): {why}",
-            "laissés de côté : {signs} ({first}) : {why}",
+            "not published: {signs} ({first}): {why}",
+            "non publiés : {signs} ({first}) : {why}",
         ),
         (
             "it is not stated what the signers agreed to",
