@@ -93,15 +93,21 @@ function textRank(sign, words) {
   return rank;
 }
 
-// The distance of a sign from a choice: 0 it fits, 0.5 its neighbour does, 1 it does not.
+// What a value has in common with its neighbours: the fingers of a handshape; the wider value, or else the first word.
+const kin = (facet, at) => {
+  const value = data.facets[facet][at];
+  return facet === "h" && value.group !== "other" ? [value.group] : [value.up, value.id.split(/[\s_-]/)[0]].filter((it) => it !== undefined);
+};
+
+// The distance of a sign from a choice: 0 it fits, 0.5 its neighbour does, 1 it does not, and a little more if it is not coded.
 function distance(facet, sign) {
   const wanted = fits[facet].get(state[facet]);
   const own = has(facet, sign);
   if (own.some((at) => wanted.has(at))) return 0;
-  if (facet === "n" || !own.length) return 1;
-  const values = data.facets[facet];
-  const groups = new Set([...wanted].map((at) => (facet === "h" ? values[at].group : values[at].up)).filter((it) => it !== undefined));
-  return own.some((at) => groups.has(facet === "h" ? values[at].group : values[at].up)) ? 0.5 : 1;
+  if (!own.length) return 1.01;
+  if (facet === "n") return 1;
+  const near = new Set([...wanted].flatMap((at) => kin(facet, at)));
+  return own.some((at) => kin(facet, at).some((it) => near.has(it))) ? 0.5 : 1;
 }
 
 function found() {
@@ -124,7 +130,7 @@ function found() {
     } else {
       if (off.length === 1) count(off[0][0], sign);
       const sum = off.reduce((sum, it) => sum + it[1], 0);
-      if (sum < 1 || (sum <= 1 && chosen.length > 1)) near.push([sum, rank, sign, off.map((it) => it[0])]);
+      if (sum < 1 || (sum <= 1.01 && chosen.length > 1)) near.push([sum, rank, sign, off.map((it) => it[0])]);
     }
   }
   // The signs of an exact answer stand in the order of the data, which is that of their glosses.
