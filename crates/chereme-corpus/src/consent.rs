@@ -452,10 +452,12 @@ impl Permissions {
                 }
             }
             match licence {
-                Some(it) => drop(terms.insert(it.to_owned())),
+                Some(it) => {
+                    terms.insert(it.to_owned());
+                }
                 // A sign made from others has their terms.
                 None if from_others => {}
-                None if !personal => drop(terms.extend(self.of_entry()?)),
+                None if !personal => terms.extend(self.of_entry()?),
                 None => return Err(Withheld::NoTerms),
             }
             if at != recording && licence.is_some_and(forbids_derivatives) {

@@ -27,6 +27,13 @@ pub(super) const CHOSEN: [(&str, Component); 3] = [
     ("m", Component::Movement),
 ];
 
+/// A value with its inventory; nothing if no inventory has it.
+type Known<'i> = Option<(&'i Inventory, &'i InventoryValue)>;
+/// The place of a value among the inventories and in its own one, and its id.
+type Place = (usize, usize, String);
+/// A picture of the body, and a position on it in percent of width and height.
+type Spot = (&'static str, [f64; 2]);
+
 /// The values of a component in the dictionary.
 pub(super) struct Facet<'i> {
     pub(super) values: Vec<FacetValue<'i>>,
@@ -37,7 +44,7 @@ pub(super) struct Facet<'i> {
 /// A value that can be chosen.
 pub(super) struct FacetValue<'i> {
     pub(super) id: String,
-    pub(super) known: Option<(&'i Inventory, &'i InventoryValue)>,
+    pub(super) known: Known<'i>,
     /// The next wider value.
     pub(super) wider: Option<usize>,
     /// The name of its picture.
@@ -52,10 +59,7 @@ fn is_kind(row: &TokenValueRow) -> bool {
 }
 
 /// Finds a value in the inventories of the corpus.
-pub(super) fn known<'i>(
-    inventories: &'i [StoredInventory],
-    row: &TokenValueRow,
-) -> Option<(&'i Inventory, &'i InventoryValue)> {
+pub(super) fn known<'i>(inventories: &'i [StoredInventory], row: &TokenValueRow) -> Known<'i> {
     let id = row.value.as_deref()?;
     let named = inventories
         .iter()
@@ -73,9 +77,8 @@ pub(super) fn facet<'i>(
     entries: &[Entry],
     inventories: &'i [StoredInventory],
 ) -> Facet<'i> {
-    let mut found: BTreeMap<(usize, usize, String), Option<(&Inventory, &InventoryValue)>> =
-        BTreeMap::new();
-    let place = |known: Option<(&Inventory, &InventoryValue)>, id: &str| {
+    let mut found: BTreeMap<Place, Known<'i>> = BTreeMap::new();
+    let place = |known: Known<'_>, id: &str| {
         let at = known.and_then(|(inventory, value)| {
             let which = inventories
                 .iter()
@@ -86,7 +89,7 @@ pub(super) fn facet<'i>(
         let (which, at) = at.unwrap_or((usize::MAX, 0));
         (which, at, id.to_owned())
     };
-    let own = |entry: &Entry| -> Vec<(usize, usize, String)> {
+    let own = |entry: &Entry| -> Vec<Place> {
         let rows = entry.values.iter().filter(|it| it.component == component);
         let rows = rows.filter(|it| is_kind(it) && it.state == ValueState::Value);
         rows.filter_map(|row| {
@@ -115,12 +118,12 @@ pub(super) fn facet<'i>(
             }
         }
     }
-    let places: BTreeMap<&(usize, usize, String), usize> = found
+    let places: BTreeMap<&Place, usize> = found
         .keys()
         .enumerate()
         .map(|(at, key)| (key, at))
         .collect();
-    let index = |key: &(usize, usize, String)| places.get(key).copied();
+    let index = |key: &Place| places.get(key).copied();
     let pictured = names(found.keys().map(|key| key.2.as_str()));
     let values = found.iter().map(|(key, known)| FacetValue {
         id: key.2.clone(),
@@ -190,9 +193,7 @@ pub(super) struct DrawnPanel {
 
 /// Returns the pictures of the body that show places of the dictionary, and for each value its picture and its position
 /// there, in percent of width and height.
-pub(super) fn panels(
-    facet: &Facet<'_>,
-) -> Result<(Vec<DrawnPanel>, Vec<Option<(&'static str, [f64; 2])>>)> {
+pub(super) fn panels(facet: &Facet<'_>) -> Result<(Vec<DrawnPanel>, Vec<Option<Spot>>)> {
     let scene = Scene::new()?;
     let mut drawn: Vec<DrawnPanel> = Vec::new();
     let mut spots = Vec::new();
