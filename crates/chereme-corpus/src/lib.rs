@@ -12,6 +12,7 @@ mod author;
 mod check;
 pub(crate) mod codec;
 mod compare;
+mod consent;
 mod contents;
 mod context;
 mod cue;
@@ -39,11 +40,13 @@ mod media;
 mod merge;
 mod movement;
 mod notation;
+mod page;
 mod pairs;
 mod paths;
 mod picture;
 mod progress;
 mod propose;
+mod publish;
 pub mod recipe;
 mod recombine;
 mod saved_search;
@@ -103,6 +106,7 @@ pub use chereme_formats::compare::{
 };
 pub use chereme_sign::query::{facet_condition, narrow, wants, without};
 pub use compare::{CompareSide, FileMerge, merge_files};
+pub use consent::{Audience, Consent, ConsentChange, ConsentKind, ConsentRow, Withheld};
 pub use contents::{
     AnnotationColumns, Contents, Overview, RecordingGlance, ShownFrames, SignGlance, TierContents,
 };
@@ -159,6 +163,7 @@ pub use picture::values as value_pictures;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
 pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
+pub use publish::{LeftOut, PublishOptions, Published};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use saved_search::{KeptSearch, kept_like};
 pub use score::Scored;

@@ -332,6 +332,21 @@ fn of_citations(corpus: &Corpus, fields: &[String]) -> Result<Table> {
     })
 }
 
+/// Returns the minimal pairs of codings, by all fields that one of them has.
+pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Result<Pairs> {
+    let fields: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
+    let cells = |coding: &BTreeMap<String, String>| {
+        let cells = fields.iter().map(|field| coding.get(*field).cloned());
+        cells.map(Option::unwrap_or_default).collect()
+    };
+    let rows = codings.iter().filter(|(_, it)| !it.is_empty());
+    let table = Table {
+        rows: rows.map(|(gloss, it)| (gloss.clone(), cells(it))).collect(),
+        fields: fields.iter().map(|it| (*it).clone()).collect(),
+    };
+    pairs(table, Empty::Value)
+}
+
 fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
     if empty == Empty::Unknown {
         table

@@ -73,6 +73,7 @@ pub mod writer;
 
 pub use animation::{Animation, AnimationOptions, Pictures, write_gif};
 pub use body::Body;
+pub use body::portable::{Bone, BoneMotion, PortableBody, PortableVertex};
 pub use chart::{ChartOptions, alignment_picture};
 pub use error::{FigureError, MAX_FRAMES, SPEEDS};
 pub use faces::face_sheet;

@@ -102,6 +102,7 @@ pub(crate) const RECORDINGS: Table = Table {
         text("recipe", "(SELECT text FROM recipe p WHERE p.recording_id = r.id)"),
         text("licence", "r.licence"),
         text("notes", "r.notes"),
+        text("consent", "r.consent"),
     ],
     from: "recording r LEFT JOIN signer g ON g.id = r.signer_id
            LEFT JOIN track k ON k.id = (SELECT id FROM track WHERE recording_id = r.id AND kind = 'skeleton'
@@ -339,6 +340,7 @@ pub(crate) const SIGNERS: Table = Table {
               WHERE coalesce(p.id, r.signer_id) = g.id)",
         ),
         text("notes", "g.notes"),
+        text("consent", "g.consent"),
     ],
     from: "signer g",
     order: "g.name",

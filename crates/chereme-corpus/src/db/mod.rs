@@ -6,6 +6,7 @@
 pub(crate) mod attributes;
 pub(crate) mod check;
 pub(crate) mod columns;
+pub(crate) mod consents;
 pub(crate) mod contents;
 pub(crate) mod delete;
 pub(crate) mod dump;

@@ -15,6 +15,7 @@ use crate::Corpus;
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::film::{Shape, write_film};
+use crate::page::{base64, filled};
 use crate::picture::write;
 use crate::progress::{Progress, Step, Unit};
 
@@ -301,40 +302,14 @@ fn html(study: &Study, films: &BTreeMap<usize, String>, rows: &[Vec<order::Shown
     let hash = base64(&Sha256::digest(&script));
     let title = text_in(&plan.title, "en").unwrap_or(&plan.name);
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
-    // One pass over the page, so that no text of the plan is taken for a place of another part.
-    let mut page = String::new();
-    for (at, piece) in PAGE.split("@@").enumerate() {
-        page.push_str(match (at % 2, piece) {
-            (1, "TITLE") => &title,
-            (1, "HASH") => &hash,
-            (1, "STYLE") => STYLE,
-            (1, "DATA") => &data,
-            (1, "SCRIPT") => &script,
-            _ => piece,
-        });
-    }
-    page
-}
-
-/// Returns bytes in base64 (RFC 4648, section 4), as policies for content write hashes.
-fn base64(bytes: &[u8]) -> String {
-    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::new();
-    for three in bytes.chunks(3) {
-        let mut bits = 0_u32;
-        for at in 0..3 {
-            bits = bits << 8 | u32::from(three.get(at).copied().unwrap_or(0));
-        }
-        for at in 0..4 {
-            let letter = LETTERS[(bits >> (18 - 6 * at) & 63) as usize];
-            text.push(if at <= three.len() {
-                char::from(letter)
-            } else {
-                '='
-            });
-        }
-    }
-    text
+    let parts = [
+        ("TITLE", title.as_str()),
+        ("HASH", &hash),
+        ("STYLE", STYLE),
+        ("DATA", &data),
+        ("SCRIPT", &script),
+    ];
+    filled(PAGE, &parts)
 }
 
 #[cfg(test)]

@@ -74,6 +74,7 @@ texts! {
     DID_PLAN_STUDY: "Study planned: {what}", "Étude préparée : {what}";
     DID_IMPORT_ANSWERS: "Answers imported: {what}", "Réponses importées : {what}";
     DID_FORGET_PARTICIPANT: "Participant of a study deleted: {what}", "Participant d’une étude supprimé : {what}";
+    DID_CHANGE_CONSENT: "Consent changed: {what}", "Consentement modifié : {what}";
     DID_DELETE_STUDY: "Study deleted: {what}", "Étude supprimée : {what}";
     DID_DELETE: "Deleted: {what}", "Supprimé : {what}";
     BACK_AGAIN: "Restored: {what}", "Rétabli : {what}";
@@ -173,6 +174,7 @@ fn plain(name: &str) -> Option<Text> {
         "import answers" => DID_IMPORT_ANSWERS,
         "forget participant" => DID_FORGET_PARTICIPANT,
         "delete study" => DID_DELETE_STUDY,
+        "change consent" => DID_CHANGE_CONSENT,
         _ => return None,
     })
 }

@@ -23,6 +23,7 @@ use super::importing::IMPORTING;
 use super::lines::{GENERAL, LINES};
 use super::moving::MOVING;
 use super::notes::NOTES;
+use super::publishing::PUBLISHING;
 use super::queries::QUERIES;
 use super::reading::READING;
 use super::reporting::REPORTS;
@@ -526,6 +527,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(CODING)
         .chain(READING)
         .chain(STUDIES)
+        .chain(PUBLISHING)
         .chain(REPORTS)
         .chain(CAPTURES)
         .chain(DOCUMENTS)

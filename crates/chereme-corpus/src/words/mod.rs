@@ -42,6 +42,7 @@ pub mod merge;
 mod messages;
 mod moving;
 mod notes;
+mod publishing;
 mod queries;
 mod reading;
 pub mod reporting;

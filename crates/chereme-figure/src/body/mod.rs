@@ -11,6 +11,7 @@ mod features;
 mod glove;
 mod hand;
 mod head;
+pub mod portable;
 mod rods;
 pub(crate) mod shape;
 mod skin;

@@ -208,6 +208,19 @@ pub(super) struct Element {
 }
 
 impl Element {
+    /// Returns the joint with which the element rotates as a whole, and its points in that joint's space.
+    pub(super) fn rigid(&self) -> Option<(usize, &[Vec3])> {
+        match &self.shape {
+            Shape::Rigid { joint, places, .. } => Some((*joint, places)),
+            _ => None,
+        }
+    }
+
+    /// Returns its vertices in the body's mesh.
+    pub(super) fn vertices(&self) -> Range<usize> {
+        self.vertices.clone()
+    }
+
     /// Moves the element's vertices to their positions in `pose`.
     pub(super) fn pose(&self, pose: &ModelPose, mesh: &mut Mesh) {
         let out = &mut mesh.vertices[self.vertices.clone()];

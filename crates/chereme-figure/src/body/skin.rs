@@ -59,7 +59,7 @@ impl Motion {
     }
 
     /// Returns the rotated axes and the offset of this motion.
-    fn matrix(&self) -> (Mat3, Vec3) {
+    pub(super) fn matrix(&self) -> (Mat3, Vec3) {
         let mut turn = Mat3::from_quat(self.turn);
         if let Some((direction, factor)) = self.stretch {
             let outer = Mat3::from_cols(
@@ -122,8 +122,13 @@ impl Rig {
         self.followers.len() - 1
     }
 
-    /// Returns the motion of each follower in `pose`.
+    /// Returns the axes and the offset of each follower in `pose`.
     pub(super) fn motions(&self, pose: &ModelPose) -> Vec<(Mat3, Vec3)> {
+        self.moved(pose).iter().map(Motion::matrix).collect()
+    }
+
+    /// Returns the motion of each follower in `pose`.
+    pub(super) fn moved(&self, pose: &ModelPose) -> Vec<Motion> {
         let trunk = self.trunk.as_ref().map(|trunk| trunk.posed(pose));
         let chest = trunk.map_or(Quat::IDENTITY, |it| it.chest.turn);
         let arms = [0, 1].map(|side| self.arms[side].as_ref().map(|arm| arm.posed(pose, chest)));
@@ -151,12 +156,12 @@ impl Rig {
             };
             motions.push(motion);
         }
-        motions.iter().map(Motion::matrix).collect()
+        motions
     }
 }
 
 /// Returns the motion halfway between two, about a point of the child.
-fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Motion {
+pub(super) fn half([parent, child]: [Motion; 2], at: Vec3, along: Vec3, swell: f32) -> Motion {
     let other = if parent.turn.dot(child.turn) < 0.0 {
         -child.turn
     } else {

@@ -135,6 +135,16 @@ impl TrunkRig {
         Some(rig)
     }
 
+    /// Returns the middle of the pelvis in bind space.
+    pub(super) fn seat_place(&self) -> Vec3 {
+        self.hips_at
+    }
+
+    /// Returns the point of bind space about which the chest rotates.
+    pub(super) fn chest_place(&self) -> Vec3 {
+        self.anchor.map_or(Vec3::ZERO, |(_, at)| at)
+    }
+
     /// Returns whether the skeleton stands at rest, so that positions at rest are meaningful.
     pub(super) fn stands(&self) -> bool {
         self.turning.is_some()
@@ -283,6 +293,10 @@ impl ArmRig {
                 turned_arm(seat.y_axis, seat.z_axis).inverse(),
             ],
         })
+    }
+
+    pub(super) fn hand_joint(&self) -> usize {
+        self.joints[2]
     }
 
     pub(super) fn hand_axes(&self) -> HandAxes {

@@ -1,0 +1,195 @@
+//! `chereme publish`: writes a dictionary of signs as a folder of web pages.
+
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{LeftOut, Progress, PublishOptions, Step, Withheld};
+
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+use crate::words::Words;
+
+/// Publish a dictionary of signs: a folder of web pages that works without a server
+///
+/// People search by word, by drawn handshape, by place on the body, by movement and by one or two hands; signs that
+/// nearly fit follow those that do. Each sign has a page with its movement, which can be slowed down, stepped, mirrored
+/// and seen from three sides, its values in words, its minimal pairs and its terms of use. The folder opens by a double
+/// click and from any web server, in English and French, and asks no other computer for anything.
+///
+/// Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and
+/// signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without
+/// --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a
+/// sign that was withdrawn leaves no trace; files of others in the folder stay.
+///
+/// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
+/// (handshapes without a picture) and "left_out", each with "why", "movement" (whether only that was left out),
+/// "signs", "first" and "remedy".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme consent mine.chereme signer:Ada --all public --licence 'CC BY-NC-SA 4.0'
+  chereme publish mine.chereme --to dictionary/
+  chereme publish mine.chereme 'origin=captured not gloss=NAME*' --to dictionary/ --title 'Signs of Nantes' --contact signs@example.org
+  chereme publish lexicon.chereme --to dictionary/ --terms 'CC BY-NC-SA 3.0, Global Signbank'")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The signs, as a query for their tokens as in `chereme search`; all signs without it
+    query: Vec<String>,
+    /// The folder to write
+    #[arg(long, value_name = "FOLDER")]
+    to: PathBuf,
+    /// The title of the pages
+    #[arg(long)]
+    title: Option<String>,
+    /// The terms of use of what shows nobody and has none: entries of tables, signs generated from notation
+    #[arg(long)]
+    terms: Option<String>,
+    /// The address to which people write, also to withdraw a sign
+    #[arg(long)]
+    contact: Option<String>,
+    /// Publish the remarks on signs, too
+    #[arg(long)]
+    notes: bool,
+}
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let options = PublishOptions {
+        query: (!args.query.is_empty()).then(|| args.query.join(" ")),
+        title: args.title.clone(),
+        terms: args.terms.clone(),
+        contact: args.contact.clone(),
+        notes: args.notes,
+    };
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let done = corpus.publish(&args.to, &options, &mut Progress::new(&mut hear))?;
+    drop(bar);
+    output.line(format!(
+        "published {}, {} of them with movement: {}",
+        output.counted(done.signs as u64, "signs"),
+        done.moving,
+        done.page.display()
+    ))?;
+    output.line(format!(
+        "signers: {}; files: {}, {} KB",
+        done.signers,
+        done.files,
+        done.bytes.div_ceil(1024)
+    ))?;
+    for (terms, signs) in &done.terms {
+        output.line(format!("terms {terms:?}: {signs}"))?;
+    }
+    if done.undrawn > 0 {
+        output.line(format!(
+            "handshapes without a picture: {}; their values have no posture",
+            done.undrawn
+        ))?;
+    }
+    for it in &done.left_out {
+        print_left_out(it, output)?;
+    }
+    output.document(done)
+}
+
+fn print_left_out(it: &LeftOut, output: &mut Output) -> Result<()> {
+    let why = output.spoken(match it.why {
+        Withheld::ConsentUnknown => "it is not stated what the signers agreed to",
+        Withheld::NotPublic => "the signers did not agree to it",
+        Withheld::NoTerms => "no terms of use are stated",
+        Withheld::NoDerivatives => "the terms of a source forbid changes",
+        Withheld::InputGone => "a source is no longer there",
+    });
+    let mut first = it.first.join(", ");
+    if it.signs > it.first.len() {
+        first.push_str(", …");
+    }
+    let signs = output.counted(it.signs as u64, "signs");
+    output.line(match it.movement {
+        true => format!("without movement: {signs} ({first}): {why}"),
+        false => format!("not published: {signs} ({first}): {why}"),
+    })?;
+    output.line(format!("  {}", output.spoken(it.remedy.text())))
+}
+
+/// The French words of the command.
+pub(super) const WORDS: Words = Words {
+    help: &[
+        (
+            "Publish a dictionary of signs: a folder of web pages that works without a server",
+            "Publier un dictionnaire de signes : un dossier de pages web qui fonctionne sans serveur",
+        ),
+        (
+            "People search by word, by drawn handshape, by place on the body, by movement and by one or two hands; signs that nearly fit follow those that do. Each sign has a page with its movement, which can be slowed down, stepped, mirrored and seen from three sides, its values in words, its minimal pairs and its terms of use. The folder opens by a double click and from any web server, in English and French, and asks no other computer for anything.",
+            "On cherche par mot, par configuration dessinée, par emplacement sur le corps, par mouvement, par une ou deux mains ; les signes qui conviennent presque suivent ceux qui conviennent. Chaque signe a une page avec son mouvement, que l’on peut ralentir, avancer image par image, inverser et voir de trois côtés, ses valeurs en mots, ses paires minimales et ses conditions d’utilisation. Le dossier s’ouvre d’un double clic et depuis tout serveur web, en anglais et en français, et ne demande rien à un autre ordinateur.",
+        ),
+        (
+            "Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a sign that was withdrawn leaves no trace; files of others in the folder stay.",
+            "Seul est publié ce que tout le monde peut voir : les enregistrements dont les signeurs ont donné leur accord (`chereme consent`), sous des conditions indiquées, et ce qui n’est fait que de tels enregistrements. Les noms des signeurs, des enregistrements et des fichiers restent dehors ; les remarques aussi, sans --notes. Le compte rendu dit ce qui a été laissé de côté et pourquoi. Une deuxième publication remplace la première, et un signe retiré ne laisse pas de trace ; les fichiers d’autrui dans le dossier restent.",
+        ),
+        (
+            "`--json` gives \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signs by terms of use), \"undrawn\" (handshapes without a picture) and \"left_out\", each with \"why\", \"movement\" (whether only that was left out), \"signs\", \"first\" and \"remedy\".",
+            "`--json` donne \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signes par conditions d’utilisation), \"undrawn\" (configurations sans image) et \"left_out\", chacun avec \"why\", \"movement\" (si seul le mouvement a été laissé de côté), \"signs\", \"first\" et \"remedy\".",
+        ),
+        (
+            "The signs, as a query for their tokens as in `chereme search`; all signs without it",
+            "Les signes, par une requête de leurs occurrences comme dans `chereme search` ; tous les signes sans elle",
+        ),
+        ("The folder to write", "Le dossier à écrire"),
+        ("The title of the pages", "Le titre des pages"),
+        (
+            "The terms of use of what shows nobody and has none: entries of tables, signs generated from notation",
+            "Les conditions d’utilisation de ce qui ne montre personne et n’en a pas : entrées de tables, signes générés à partir d’une notation",
+        ),
+        (
+            "The address to which people write, also to withdraw a sign",
+            "L’adresse à laquelle on écrit, aussi pour retirer un signe",
+        ),
+        (
+            "Publish the remarks on signs, too",
+            "Publier aussi les remarques sur les signes",
+        ),
+    ],
+    lines: &[
+        (
+            "published {signs}, {moving} of them with movement: {path}",
+            "publié : {signs}, dont avec mouvement {moving} : {path}",
+        ),
+        (
+            "signers: {n}; files: {files}, {size} KB",
+            "signeurs : {n} ; fichiers : {files}, {size} Ko",
+        ),
+        ("terms {terms}: {n}", "conditions {terms} : {n}"),
+        (
+            "handshapes without a picture: {n}; their values have no posture",
+            "configurations sans image : {n} ; leurs valeurs n’ont pas de posture",
+        ),
+        (
+            "without movement: {signs} ({first}): {why}",
+            "sans mouvement : {signs} ({first}) : {why}",
+        ),
+        (
+            "not published: {signs} ({first}): {why}",
+            "non publiés : {signs} ({first}) : {why}",
+        ),
+        (
+            "it is not stated what the signers agreed to",
+            "il n’est pas indiqué ce que les signeurs ont accepté",
+        ),
+        (
+            "the signers did not agree to it",
+            "les signeurs n’ont pas donné leur accord",
+        ),
+        (
+            "no terms of use are stated",
+            "aucune condition d’utilisation n’est indiquée",
+        ),
+        (
+            "the terms of a source forbid changes",
+            "les conditions d’une source interdisent les modifications",
+        ),
+        ("a source is no longer there", "une source n’existe plus"),
+    ],
+    titles: &[],
+};

@@ -1,0 +1,201 @@
+use std::path::PathBuf;
+
+use proptest::prelude::*;
+
+use super::*;
+use crate::{
+    ImportOptions, Name, Origin, Progress, RecordingChange, SignerChange, unheard, unpack_starter,
+};
+
+/// Returns a corpus with BOL and ESCARGOT, as recorded from Ada, and LIMACE, which is generated from the latter.
+pub(crate) fn corpus(folder: &std::path::Path) -> Corpus {
+    let files = unpack_starter(&folder.join("files")).expect("unpacked");
+    let wanted = ["escargot", "bol", "lexicon"];
+    let named = |path: &PathBuf| {
+        let stem = path.file_stem();
+        stem.is_some_and(|it| wanted.iter().any(|w| it == *w))
+    };
+    let files: Vec<PathBuf> = files.into_iter().filter(named).collect();
+    let mut corpus = Corpus::create(&folder.join("a.chereme"), "A").expect("created");
+    let options = ImportOptions::default();
+    corpus
+        .import(&files, &options, &mut Progress::new(&mut unheard))
+        .expect("imported");
+    for name in ["escargot", "bol"] {
+        let change = RecordingChange {
+            origin: Some(Origin::Captured),
+            licence: Some(None),
+            ..RecordingChange::default()
+        };
+        let recording = Name::Text(name.into());
+        corpus
+            .change_recording(&recording, &change)
+            .expect("changed");
+    }
+    let signers = corpus.consents().expect("read");
+    let ada = SignerChange {
+        name: Some("Ada".into()),
+        ..SignerChange::default()
+    };
+    corpus
+        .change_signer(&Name::Number(signers[0].id), &ada)
+        .expect("changed");
+    corpus
+        .recombine("ESCARGOT | configure right U", "LIMACE")
+        .expect("generated");
+    corpus
+}
+
+fn address(text: &str) -> Address {
+    text.parse().expect("an address")
+}
+
+fn all(audience: Audience) -> ConsentChange {
+    let said = Some(Some(audience));
+    ConsentChange {
+        movement: said,
+        annotation: said,
+        derived: said,
+        ..ConsentChange::default()
+    }
+}
+
+/// Returns for ESCARGOT and LIMACE whether the movement may be published.
+fn verdicts(corpus: &Corpus) -> [std::result::Result<BTreeSet<String>, Withheld>; 2] {
+    let connection = corpus.store.read();
+    let known = Permissions::of(connection, None).expect("read");
+    ["escargot", "LIMACE"].map(|name| {
+        let found = recordings::recording_named(connection, name).expect("read");
+        known.of_recording(found.expect("a recording").id, ConsentKind::Movement)
+    })
+}
+
+#[test]
+fn unknown_is_not_public_and_a_withdrawal_reaches_what_was_generated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let ada = [address("signer:Ada")];
+    let unknown = Err(Withheld::ConsentUnknown);
+    assert_eq!(verdicts(&corpus), [unknown.clone(), unknown]);
+    corpus
+        .change_consent(&ada, &all(Audience::Public))
+        .expect("changed");
+    let no_terms = Err(Withheld::NoTerms);
+    assert_eq!(verdicts(&corpus), [no_terms.clone(), no_terms]);
+    let licence = ConsentChange {
+        licence: Some("CC BY 4.0".into()),
+        ..ConsentChange::default()
+    };
+    corpus
+        .change_consent(&[address("recording:escargot")], &licence)
+        .expect("changed");
+    let terms = Ok(BTreeSet::from(["CC BY 4.0".to_owned()]));
+    assert_eq!(verdicts(&corpus), [terms.clone(), terms.clone()]);
+    // Each of these takes something back; undo gives it again.
+    let derived = ConsentChange {
+        derived: Some(Some(Audience::Research)),
+        ..ConsentChange::default()
+    };
+    corpus.change_consent(&ada, &derived).expect("changed");
+    assert_eq!(verdicts(&corpus), [terms.clone(), Err(Withheld::NotPublic)]);
+    corpus.undo().expect("undone");
+    let one = [address("recording:escargot")];
+    corpus
+        .change_consent(&one, &all(Audience::Nobody))
+        .expect("changed");
+    let refused = Err(Withheld::NotPublic);
+    assert_eq!(verdicts(&corpus), [refused.clone(), refused]);
+    corpus.undo().expect("undone");
+    assert_eq!(verdicts(&corpus), [terms.clone(), terms]);
+}
+
+#[test]
+fn terms_that_forbid_changes_hold_back_what_was_generated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let change = ConsentChange {
+        licence: Some("CC BY-NC-ND 4.0".into()),
+        ..all(Audience::Public)
+    };
+    corpus
+        .change_consent(&[address("signer:Ada")], &change)
+        .expect("changed");
+    let [own, generated] = verdicts(&corpus);
+    assert!(own.is_ok());
+    assert_eq!(generated, Err(Withheld::NoDerivatives));
+    for (text, forbids) in [
+        ("CC BY-ND 4.0", true),
+        ("Attribution-NoDerivatives", true),
+        ("No derivative works", true),
+        ("CC BY-SA 4.0", false),
+        ("Indiana", false),
+    ] {
+        assert_eq!(forbids_derivatives(text), forbids, "{text}");
+    }
+}
+
+#[test]
+fn the_source_of_a_generated_sign_that_is_gone_holds_it_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let change = ConsentChange {
+        licence: Some("CC0".into()),
+        ..all(Audience::Public)
+    };
+    corpus
+        .change_consent(&[address("signer:Ada")], &change)
+        .expect("changed");
+    let options = crate::DeleteOptions {
+        dependents: crate::Dependents::Keep,
+        dry_run: false,
+    };
+    corpus
+        .delete(
+            &[address("recording:escargot")],
+            options,
+            &mut Progress::new(&mut unheard),
+        )
+        .expect("deleted");
+    let connection = corpus.store.read();
+    let known = Permissions::of(connection, Some("CC0")).expect("read");
+    let found = recordings::recording_named(connection, "LIMACE").expect("read");
+    let verdict = known.of_recording(found.expect("there").id, ConsentKind::Movement);
+    assert_eq!(verdict, Err(Withheld::InputGone));
+}
+
+#[test]
+fn days_are_days() {
+    for (text, fits) in [
+        ("2026-11-27", true),
+        ("2026-13-01", false),
+        ("2026-1-1", false),
+        ("today", false),
+        ("+026-11-27", false),
+    ] {
+        assert_eq!(is_day(text), fits, "{text}");
+    }
+}
+
+fn any_audience() -> impl Strategy<Value = Option<Audience>> {
+    prop::option::of(prop::sample::select(Audience::ALL.to_vec()))
+}
+
+proptest! {
+    /// Public is only what everybody involved made public, or what the recording's own consent covers for people of
+    /// whom nothing is known.
+    #[test]
+    fn the_narrowest_consent_holds(own in any_audience(), people in prop::collection::vec(any_audience(), 0..4)) {
+        let consent = |movement: Option<Audience>| Consent { movement, ..Consent::default() };
+        let each: Vec<Consent> = people.iter().map(|it| consent(*it)).collect();
+        let each: Vec<Option<&Consent>> = each.iter().map(Some).collect();
+        let found = narrowest(Some(&consent(own)), &each, ConsentKind::Movement);
+        let said: Vec<Audience> = people.iter().copied().flatten().chain(own).collect();
+        if found == Some(Audience::Public) {
+            prop_assert!(said.iter().all(|it| *it == Audience::Public));
+            prop_assert!(own.is_some() || (!people.is_empty() && people.iter().all(Option::is_some)));
+        }
+        if said.iter().any(|it| *it < Audience::Public) {
+            prop_assert_eq!(found, said.iter().copied().min());
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! What signers agreed to, as rows.
+
+use rusqlite::{Connection, params};
+
+use crate::error::Result;
+
+/// The consent of a signer, or the one that belongs to a recording.
+pub(crate) struct ConsentColumn {
+    pub(crate) id: i64,
+    pub(crate) name: String,
+    /// The consent as JSON.
+    pub(crate) consent: Option<String>,
+}
+
+/// Returns the consent of every signer, by name.
+pub(crate) fn of_signers(connection: &Connection) -> Result<Vec<ConsentColumn>> {
+    read(
+        connection,
+        "SELECT id, name, consent FROM signer ORDER BY name",
+    )
+}
+
+/// Returns the consent that belongs to each recording, by name.
+pub(crate) fn of_recordings(connection: &Connection) -> Result<Vec<ConsentColumn>> {
+    read(
+        connection,
+        "SELECT id, name, consent FROM recording ORDER BY name",
+    )
+}
+
+fn read(connection: &Connection, sql: &str) -> Result<Vec<ConsentColumn>> {
+    let mut statement = connection.prepare_cached(sql)?;
+    let rows = statement.query_map([], |row| {
+        Ok(ConsentColumn {
+            id: row.get(0)?,
+            name: row.get(1)?,
+            consent: row.get(2)?,
+        })
+    })?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Stores the consent of a signer.
+pub(crate) fn set_of_signer(connection: &Connection, id: i64, consent: Option<&str>) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE signer SET consent = ?2 WHERE id = ?1")?
+        .execute(params![id, consent])?;
+    Ok(())
+}
+
+/// Stores the consent that belongs to a recording.
+pub(crate) fn set_of_recording(
+    connection: &Connection,
+    id: i64,
+    consent: Option<&str>,
+) -> Result<()> {
+    connection
+        .prepare_cached("UPDATE recording SET consent = ?2 WHERE id = ?1")?
+        .execute(params![id, consent])?;
+    Ok(())
+}
+
+/// Returns the participants that the tiers of recordings name: recording and name.
+pub(crate) fn participants(connection: &Connection) -> Result<Vec<(i64, String)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT recording_id, trim(participant) FROM tier
+         WHERE trim(coalesce(participant, '')) <> '' ORDER BY 1, 2",
+    )?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the inputs of recipes: the generated recording, and the recording that it takes movement from; without one
+/// if the input is an entry of a table, or was deleted. The last is whether a token stands for the input.
+pub(crate) fn inputs(connection: &Connection) -> Result<Vec<(i64, Option<i64>, bool)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT p.recording_id, i.recording_id, i.token_id IS NOT NULL
+         FROM recipe_input i JOIN recipe p ON p.id = i.recipe_id ORDER BY p.recording_id, i.id",
+    )?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}

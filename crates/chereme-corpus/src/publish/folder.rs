@@ -1,0 +1,272 @@
+//! The published folder: written completely beside its place, and exchanged for the old one at the end.
+
+use std::collections::BTreeSet;
+use std::ffi::OsString;
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Component, Path, PathBuf};
+
+use crate::error::{Error, Result};
+
+/// The list of the files that were written; the next publication replaces these and no others.
+pub(super) const LIST: &str = "files.txt";
+/// The deepest folder that is looked into for files of others.
+const DEEPEST: usize = 32;
+
+/// A folder under construction.
+pub(super) struct Folder {
+    to: PathBuf,
+    part: PathBuf,
+    old: PathBuf,
+    written: BTreeSet<String>,
+    bytes: u64,
+    done: bool,
+}
+
+impl Folder {
+    /// Begins a folder that will be at `to`.
+    ///
+    /// # Errors
+    /// Fails if `to` has no name, is a file, or cannot be written beside.
+    pub(super) fn begin(to: &Path) -> Result<Self> {
+        beside(to, "part")?;
+        // A link to a folder stays: the folder that it leads to is replaced.
+        let to = &fs::canonicalize(to).unwrap_or_else(|_| to.to_owned());
+        let (part, old) = (beside(to, "part")?, beside(to, "old")?);
+        let fault = |error| Error::file(to, error);
+        // A publication that was killed between its two last steps left the old folder beside its place.
+        if !to.exists() && old.is_dir() {
+            fs::rename(&old, to).map_err(fault)?;
+        }
+        if to.exists() && !to.is_dir() {
+            return Err(fault(ErrorKind::NotADirectory.into()));
+        }
+        for left in [&part, &old] {
+            if left.exists() {
+                fs::remove_dir_all(left).map_err(|error| Error::file(left, error))?;
+            }
+        }
+        fs::create_dir_all(&part).map_err(|error| Error::file(&part, error))?;
+        Ok(Self {
+            to: to.to_owned(),
+            part,
+            old,
+            written: BTreeSet::new(),
+            bytes: 0,
+            done: false,
+        })
+    }
+
+    /// Writes a file; `name` has `/` between its folders.
+    pub(super) fn write(&mut self, name: &str, bytes: &[u8]) -> Result<()> {
+        let path = self.part.join(name);
+        let fault = |error| Error::file(&path, error);
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).map_err(fault)?;
+        }
+        fs::write(&path, bytes).map_err(fault)?;
+        self.written.insert(name.to_owned());
+        self.bytes += bytes.len() as u64;
+        Ok(())
+    }
+
+    /// Reports whether a file was written.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.written.contains(name)
+    }
+
+    /// Puts the folder in its place, and returns the number of files and their bytes. Files that no publication wrote
+    /// stay.
+    pub(super) fn finish(mut self) -> Result<(usize, u64)> {
+        self.written.insert(LIST.to_owned());
+        let list: String = self.written.iter().map(|it| format!("{it}\n")).collect();
+        self.write(LIST, list.as_bytes())?;
+        let fault = |error| Error::file(&self.to, error);
+        if !self.to.exists() {
+            fs::rename(&self.part, &self.to).map_err(fault)?;
+            self.done = true;
+            return Ok((self.written.len(), self.bytes));
+        }
+        let others = self.others()?;
+        let mut moved: Vec<&String> = Vec::new();
+        let result = others.iter().try_for_each(|name| {
+            let (from, to) = (self.to.join(name), self.part.join(name));
+            if let Some(folder) = to.parent() {
+                fs::create_dir_all(folder)?;
+            }
+            fs::rename(from, to)?;
+            moved.push(name);
+            Ok(())
+        });
+        let result = result
+            .and_then(|()| fs::rename(&self.to, &self.old))
+            .and_then(|()| {
+                fs::rename(&self.part, &self.to).inspect_err(|_| {
+                    drop(fs::rename(&self.old, &self.to));
+                })
+            });
+        if let Err(error) = result {
+            for name in moved {
+                drop(fs::rename(self.part.join(name), self.to.join(name)));
+            }
+            return Err(fault(error));
+        }
+        self.done = true;
+        // The new folder is complete. A rest of the old one goes with the next publication.
+        drop(fs::remove_dir_all(&self.old));
+        Ok((self.written.len(), self.bytes))
+    }
+
+    /// Returns the files in the old folder that no publication wrote.
+    fn others(&self) -> Result<Vec<String>> {
+        let list = fs::read_to_string(self.to.join(LIST)).unwrap_or_default();
+        let known: BTreeSet<&str> = list.lines().filter(|it| is_inside(it)).collect();
+        let mut files = Vec::new();
+        walk(&self.to, "", 0, &mut files)?;
+        files.retain(|it| !known.contains(it.as_str()));
+        if let Some(clash) = files.iter().find(|it| self.written.contains(*it)) {
+            let path = self.to.join(clash);
+            return Err(
+                Error::wrong(format!("{clash:?} was not written by a publication"))
+                    .at(path.display().to_string())
+                    .advise("name an empty folder, or move the file away"),
+            );
+        }
+        Ok(files)
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        if !self.done {
+            drop(fs::remove_dir_all(&self.part));
+        }
+    }
+}
+
+/// Reports whether a name leads to a file inside its folder.
+fn is_inside(name: &str) -> bool {
+    let mut parts = Path::new(name).components();
+    !name.is_empty() && parts.all(|it| matches!(it, Component::Normal(_)))
+}
+
+/// Returns a hidden path beside another one.
+fn beside(to: &Path, ending: &str) -> Result<PathBuf> {
+    let Some(name) = to.file_name() else {
+        return Err(Error::wrong("this folder has no name of its own")
+            .at(to.display().to_string())
+            .advise("name a folder that can be replaced, such as dictionary/"));
+    };
+    let mut hidden = OsString::from(".");
+    hidden.push(name);
+    hidden.push(format!(".chereme-{ending}"));
+    Ok(to.with_file_name(hidden))
+}
+
+fn walk(folder: &Path, prefix: &str, depth: usize, files: &mut Vec<String>) -> Result<()> {
+    let fault = |error| Error::file(folder, error);
+    if depth > DEEPEST {
+        return Err(
+            Error::wrong("folders lie too deep inside each other").at(folder.display().to_string())
+        );
+    }
+    for entry in fs::read_dir(folder).map_err(fault)? {
+        let entry = entry.map_err(fault)?;
+        let Ok(name) = entry.file_name().into_string() else {
+            return Err(Error::wrong("a file's name is no text")
+                .at(entry.path().display().to_string())
+                .advise("move it out of the folder"));
+        };
+        let own = format!("{prefix}{name}");
+        // A link is moved as one, whatever it leads to.
+        if entry.file_type().map_err(fault)?.is_dir() {
+            walk(&entry.path(), &format!("{own}/"), depth + 1, files)?;
+        } else {
+            files.push(own);
+        }
+    }
+    files.sort();
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn published(to: &Path, files: &[(&str, &str)]) -> Result<(usize, u64)> {
+        let mut folder = Folder::begin(to)?;
+        for (name, text) in files {
+            folder.write(name, text.as_bytes())?;
+        }
+        folder.finish()
+    }
+
+    fn listed(to: &Path) -> Vec<String> {
+        let mut files = Vec::new();
+        walk(to, "", 0, &mut files).expect("read");
+        files
+    }
+
+    #[test]
+    fn a_publication_replaces_its_own_files_and_no_others() {
+        let desk = tempfile::tempdir().expect("a folder");
+        let to = desk.path().join("site");
+        published(&to, &[("index.html", "1"), ("sign/A/index.html", "a")]).expect("written");
+        fs::write(to.join("own.txt"), "mine").expect("written");
+        fs::create_dir(to.join("sign/B")).expect("made");
+        fs::write(to.join("sign/B/note.txt"), "mine").expect("written");
+        let done = published(&to, &[("index.html", "2")]).expect("replaced");
+        assert_eq!(done.0, 2);
+        let all = ["files.txt", "index.html", "own.txt", "sign/B/note.txt"];
+        assert_eq!(listed(&to), all);
+        assert_eq!(
+            fs::read_to_string(to.join("index.html")).expect("read"),
+            "2"
+        );
+        assert_eq!(
+            listed(desk.path()).len(),
+            all.len(),
+            "nothing lies beside it"
+        );
+    }
+
+    #[test]
+    fn a_publication_that_fails_changes_nothing() {
+        let desk = tempfile::tempdir().expect("a folder");
+        let to = desk.path().join("site");
+        fs::create_dir(&to).expect("made");
+        fs::write(to.join("index.html"), "of somebody").expect("written");
+        let clash = published(&to, &[("index.html", "2")]).expect_err("a clash");
+        assert!(clash.to_string().contains("index.html"), "{clash}");
+        let mut folder = Folder::begin(&to).expect("begun");
+        folder.write("a.txt", b"a").expect("written");
+        drop(folder);
+        assert_eq!(listed(desk.path()), ["site/index.html"]);
+        // A list that leads out of the folder names nothing.
+        fs::write(
+            to.join(LIST),
+            "../outside\n/etc/passwd\nindex.html\nfiles.txt\n",
+        )
+        .expect("written");
+        fs::write(desk.path().join("outside"), "x").expect("written");
+        published(&to, &[("index.html", "2")]).expect("replaced");
+        assert_eq!(
+            listed(desk.path()),
+            ["outside", "site/files.txt", "site/index.html"]
+        );
+    }
+
+    #[test]
+    fn a_publication_that_was_killed_is_mended_by_the_next_one() {
+        let desk = tempfile::tempdir().expect("a folder");
+        let to = desk.path().join("site");
+        published(&to, &[("index.html", "1")]).expect("written");
+        fs::write(to.join("own.txt"), "mine").expect("written");
+        fs::rename(&to, beside(&to, "old").expect("a name")).expect("moved");
+        published(&to, &[("index.html", "2")]).expect("written");
+        assert_eq!(
+            listed(desk.path()),
+            ["site/files.txt", "site/index.html", "site/own.txt"]
+        );
+    }
+}

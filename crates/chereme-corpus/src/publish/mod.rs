@@ -1,0 +1,376 @@
+//! A dictionary of signs as a folder of web pages, which works without a server.
+//!
+//! Only what everybody may see is published: recordings whose signers agreed, under stated terms (see the module
+//! `consent`). The names of signers, recordings and files never reach the folder.
+
+mod codes;
+mod entries;
+mod facets;
+mod folder;
+mod motion;
+mod names;
+mod pages;
+mod words;
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use chereme_figure::raster::Style;
+use chereme_figure::{Body, Image, Palette, PortableBody, Theme, thumbnail, write_png};
+use chereme_motion::Skeleton;
+use chereme_sign::Remedy;
+use chereme_sign::text::fold;
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::Corpus;
+use crate::address::Address;
+use crate::consent::{self, Permissions, Withheld};
+use crate::error::{Error, Result};
+use crate::inventories;
+use crate::progress::{Progress, Step, Unit};
+
+use entries::{Entries, Entry, Moves};
+use facets::{CHOSEN, Facet};
+use folder::Folder;
+use pages::{SCRIPT, STILL, STYLE, Site};
+
+/// The most signs of a dictionary.
+const MOST: usize = 50_000;
+/// How many signs that were left out are named for each reason.
+const NAMED: usize = 5;
+
+/// Options of a dictionary.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct PublishOptions {
+    /// The signs, as a query for their tokens; all signs if `None`.
+    pub query: Option<String>,
+    /// The title of the pages.
+    pub title: Option<String>,
+    /// The terms of use of what has none of its own and shows nobody: entries of tables, and signs generated from
+    /// notation.
+    pub terms: Option<String>,
+    /// The address to which people write, also to withdraw a sign.
+    pub contact: Option<String>,
+    /// Whether the remarks on signs are published.
+    pub notes: bool,
+}
+
+/// A dictionary that was published.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Published {
+    /// The page to open.
+    pub page: PathBuf,
+    /// The number of signs.
+    pub signs: usize,
+    /// The number of signs that move.
+    pub moving: usize,
+    /// The number of signers.
+    pub signers: usize,
+    /// The number of files.
+    pub files: usize,
+    /// The size of all files in bytes.
+    pub bytes: u64,
+    /// The number of signs under each terms of use.
+    pub terms: BTreeMap<String, usize>,
+    /// The number of handshapes without a picture, because their values have no posture.
+    pub undrawn: usize,
+    /// The signs that were left out, by reason.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// Signs that were left out of a dictionary, or whose movement was.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct LeftOut {
+    /// The reason.
+    pub why: Withheld,
+    /// Whether only the movement was left out.
+    pub movement: bool,
+    /// The number of signs.
+    pub signs: usize,
+    /// The glosses of the first ones.
+    pub first: Vec<String>,
+    /// What can be done about it.
+    #[serde(serialize_with = "as_text")]
+    pub remedy: Remedy,
+}
+
+fn as_text<S: serde::Serializer>(remedy: &Remedy, out: S) -> std::result::Result<S::Ok, S::Error> {
+    out.serialize_str(remedy.text())
+}
+
+impl Corpus {
+    /// Publishes a dictionary of signs as a folder of web pages: search by word, handshape, place and movement, and a
+    /// page for each sign with its movement. It opens from a disk and from any web server, and asks no other computer
+    /// for anything. The same corpus gives the same bytes. An older publication in the folder is replaced; files of
+    /// others stay.
+    ///
+    /// # Errors
+    /// [`Error::Wrong`] if nothing may be published, the query cannot be read, or there are more than 50,000 signs;
+    /// [`Error::File`] if the folder cannot be written; [`Error::Stopped`]. The folder is as before then.
+    pub fn publish(
+        &mut self,
+        to: &Path,
+        options: &PublishOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<Published> {
+        let terms = options.terms.as_deref().map(str::trim);
+        let terms = terms.filter(|it| !it.is_empty());
+        let permissions = Permissions::of(self.store.read(), terms)?;
+        let query = options.query.as_deref().filter(|it| !it.trim().is_empty());
+        let found = entries::collect(self, query, &permissions, options.notes, progress)?;
+        let left_out = left_out(&found);
+        if found.all.is_empty() {
+            return Err(nothing(&left_out));
+        }
+        if found.all.len() > MOST {
+            let text = format!("a dictionary has at most {MOST} signs");
+            return Err(Error::wrong(text).advise("choose fewer with a query"));
+        }
+        let mut folder = Folder::begin(to)?;
+        let (moving, undrawn) = self.write_dictionary(&mut folder, &found, options, progress)?;
+        let mut terms: BTreeMap<String, usize> = BTreeMap::new();
+        for entry in &found.all {
+            for it in &entry.terms {
+                *terms.entry(it.clone()).or_default() += 1;
+            }
+        }
+        folder.write("LICENCES.txt", licences(&terms).as_bytes())?;
+        let counts = json!({
+            "signs": found.all.len(), "with_movement": moving, "signers": found.people, "terms": terms,
+        });
+        folder.write("consent.json", format!("{counts:#}\n").as_bytes())?;
+        let (files, bytes) = folder.finish()?;
+        Ok(Published {
+            page: to.join("index.html"),
+            signs: found.all.len(),
+            moving,
+            signers: found.people,
+            files,
+            bytes,
+            terms,
+            undrawn,
+            left_out,
+        })
+    }
+
+    /// Writes pages, data and pictures, and returns the number of signs that move, and that of handshapes without a
+    /// picture.
+    fn write_dictionary(
+        &self,
+        folder: &mut Folder,
+        found: &Entries,
+        options: &PublishOptions,
+        progress: &mut Progress<'_>,
+    ) -> Result<(usize, usize)> {
+        let inventories = inventories::load(self.store.read())?;
+        let site = Site {
+            title: options.title.as_deref().unwrap_or("Signs"),
+            contact: options.contact.as_deref(),
+            inventories: &inventories,
+        };
+        let mut bodies: Vec<(Skeleton, String, Body, PortableBody)> = Vec::new();
+        let mut moving = vec![false; found.all.len()];
+        for (at, entry) in found.all.iter().enumerate() {
+            progress.report(Step {
+                task: "writing signs",
+                done: at as u64,
+                total: Some(found.all.len() as u64),
+                unit: Unit::Items,
+            })?;
+            let body = match entry.moves {
+                Moves::Public => self.write_movement(folder, entry, &mut bodies)?,
+                Moves::Withheld | Moves::Never => None,
+            };
+            moving[at] = body.is_some();
+            let page = site.sign(entry, &found.all, body.as_deref());
+            folder.write(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
+        }
+        let chosen = CHOSEN.map(|(_, it)| facets::facet(it, &found.all, &inventories));
+        let data = write_choices(folder, found, &chosen, &moving, &inventories)?;
+        folder.write("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
+        folder.write("app.js", SCRIPT.join("\n").as_bytes())?;
+        folder.write("app.css", STYLE.as_bytes())?;
+        folder.write("list.html", site.list(&found.all).as_bytes())?;
+        folder.write("index.html", site.index().as_bytes())?;
+        let shapes = data["facets"]["h"].as_array();
+        let undrawn = shapes.map_or(0, |it| {
+            it.iter().filter(|it| it.get("pic").is_none()).count()
+        });
+        Ok((moving.iter().filter(|it| **it).count(), undrawn))
+    }
+
+    /// Writes the movement and the still picture of a sign, and returns the name of its body; nothing if its skeleton
+    /// has no arms or its track cannot be shown.
+    fn write_movement(
+        &self,
+        folder: &mut Folder,
+        entry: &Entry,
+        bodies: &mut Vec<(Skeleton, String, Body, PortableBody)>,
+    ) -> Result<Option<String>> {
+        let moving = self.movement(&Address::Token(entry.token.id))?;
+        let clip = motion::shown(&moving.clip)?;
+        if clip.frames() == 0 {
+            return Ok(None);
+        }
+        let skeleton: &Skeleton = clip.skeleton();
+        let at = match bodies.iter().position(|it| it.0 == *skeleton) {
+            Some(at) => at,
+            None => {
+                let body = Body::with_palette(skeleton, &moving.anatomy, &Palette::default());
+                let Some(portable) = body.portable(skeleton) else {
+                    return Ok(None);
+                };
+                let name = format!("b{}", bodies.len() + 1);
+                let surface = motion::surface(&portable);
+                let text = format!("CH.body(\"{name}\", {surface});\n");
+                folder.write(&format!("data/body/{name}.js"), text.as_bytes())?;
+                bodies.push((skeleton.clone(), name, body, portable));
+                bodies.len() - 1
+            }
+        };
+        let (_, name, body, portable) = &bodies[at];
+        let coded = motion::coded(&clip, &moving.anatomy, (body, portable));
+        let key = json!(entry.name);
+        let text = format!("CH.motion({key}, {});\n", coded);
+        folder.write(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;
+        let style = Style {
+            theme: Theme::Light,
+            ..Style::default()
+        };
+        let still = thumbnail(&clip, &moving.anatomy, STILL, &style)
+            .map_err(|error| Error::wrong(error.to_string()))?;
+        folder.write(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
+        Ok(Some(name.clone()))
+    }
+}
+
+/// Writes the pictures of the choices, and returns the data of the first page.
+fn write_choices(
+    folder: &mut Folder,
+    found: &Entries,
+    chosen: &[Facet<'_>; 3],
+    moving: &[bool],
+    inventories: &[inventories::StoredInventory],
+) -> Result<Value> {
+    let (drawn, spots) = facets::panels(&chosen[1])?;
+    let mut panels = Vec::new();
+    for panel in &drawn {
+        folder.write(&format!("places/{}.png", panel.name), &png(&panel.image)?)?;
+        panels.push(json!({
+            "name": panel.name, "w": panel.image.width(), "h": panel.image.height(),
+        }));
+    }
+    let mut values = serde_json::Map::new();
+    for ((letter, _), facet) in CHOSEN.iter().zip(chosen) {
+        let mut list = Vec::new();
+        for (at, value) in facet.values.iter().enumerate() {
+            let mut it = facets::document(value);
+            if *letter == "h" {
+                let known = value.known.map(|(_, known)| known);
+                it["group"] = json!(known.map_or("other", facets::group));
+                let angles = known.and_then(|it| facets::posture(it, inventories));
+                if let (Some(angles), Some(name)) = (angles, &value.picture) {
+                    it["pic"] = json!(name);
+                    let file = format!("hands/{name}.png");
+                    if !folder.has(&file) {
+                        folder.write(&file, &png(&facets::hand(&angles)?)?)?;
+                    }
+                }
+            }
+            if *letter == "p"
+                && let Some((panel, [x, y])) = spots[at]
+            {
+                it["panel"] = json!(panel);
+                it["x"] = json!(x);
+                it["y"] = json!(y);
+            }
+            list.push(it);
+        }
+        values.insert((*letter).to_owned(), json!(list));
+    }
+    let signs: Vec<Value> = found
+        .all
+        .iter()
+        .enumerate()
+        .map(|(at, entry)| sign(entry, chosen, at, moving[at]))
+        .collect();
+    Ok(json!({ "facets": values, "panels": panels, "signs": signs }))
+}
+
+/// Returns a sign as the first page reads it.
+fn sign(entry: &Entry, chosen: &[Facet<'_>; 3], at: usize, moves: bool) -> Value {
+    let mut it = json!({ "g": entry.gloss });
+    if entry.name != entry.gloss {
+        it["d"] = json!(entry.name);
+    }
+    let texts = std::iter::once(&entry.gloss).chain(entry.texts.iter().map(|(_, text)| text));
+    let folded: Vec<String> = texts.map(|it| fold(it)).collect();
+    it["f"] = json!(folded.join("\n"));
+    if !entry.texts.is_empty() {
+        it["w"] = json!(entry.texts);
+    }
+    for ((letter, _), facet) in CHOSEN.iter().zip(chosen) {
+        if !facet.of[at].is_empty() {
+            it[*letter] = json!(facet.of[at]);
+        }
+    }
+    if !entry.coding.is_empty() {
+        let weak = entry.coding.keys().any(|it| it.starts_with("weak."));
+        it["n"] = json!(1 + usize::from(weak));
+    }
+    if moves {
+        it["v"] = json!(1);
+    }
+    it
+}
+
+fn png(image: &Image) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    write_png(image, &mut bytes).map_err(|error| Error::wrong(error.to_string()))?;
+    Ok(bytes)
+}
+
+fn licences(terms: &BTreeMap<String, usize>) -> String {
+    let mut text = String::from(
+        "Terms of use of the signs in this folder; the page of each sign has its own.\n\
+         Conditions d’utilisation des signes de ce dossier ; la page de chaque signe a les siennes.\n\n",
+    );
+    for (it, signs) in terms {
+        text.push_str(&format!("{signs}: {it}\n"));
+    }
+    text
+}
+
+fn left_out(found: &Entries) -> Vec<LeftOut> {
+    let mut reasons: BTreeMap<(bool, Withheld), Vec<&String>> = BTreeMap::new();
+    for (list, movement) in [(&found.withheld, false), (&found.still, true)] {
+        for (gloss, why) in list {
+            reasons.entry((movement, *why)).or_default().push(gloss);
+        }
+    }
+    let row = |((movement, why), glosses): ((bool, Withheld), Vec<&String>)| LeftOut {
+        why,
+        movement,
+        signs: glosses.len(),
+        first: glosses.iter().take(NAMED).map(|it| (*it).clone()).collect(),
+        remedy: consent::remedy(why),
+    };
+    reasons.into_iter().map(row).collect()
+}
+
+/// Returns the error for a dictionary without signs.
+fn nothing(left_out: &[LeftOut]) -> Error {
+    match left_out.iter().max_by_key(|it| it.signs) {
+        Some(most) => {
+            let all: usize = left_out.iter().map(|it| it.signs).sum();
+            let text = format!("none of {all} signs may be published");
+            Error::wrong(text).advise(most.remedy.clone())
+        }
+        None => Error::wrong("no sign is to be published")
+            .advise("import recordings or a lexicon, or choose other signs"),
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,82 @@
+// What both kinds of pages share: language, elements, and the numbers in data files.
+
+const CH = { bodies: {}, motions: {}, waiting: {} };
+window.CH = CH;
+
+const hash = () => new URLSearchParams(location.hash.slice(1));
+let language = hash().get("lang");
+if (!TEXTS[language]) {
+  try { language = localStorage.getItem("chereme-language"); } catch { language = null; }
+}
+if (!TEXTS[language]) language = (navigator.language || "en").startsWith("fr") ? "fr" : "en";
+
+const t = (name, values) => {
+  let text = TEXTS[language][name];
+  for (const key in values || {}) text = text.replace("{" + key + "}", values[key]);
+  return text;
+};
+
+function el(name, attributes, ...children) {
+  const made = document.createElement(name);
+  for (const key in attributes) {
+    const value = attributes[key];
+    if (key.startsWith("on")) made.addEventListener(key.slice(2), value);
+    else if (value === true) made.setAttribute(key, "");
+    else if (value !== false && value !== null && value !== undefined) made.setAttribute(key, value);
+  }
+  made.append(...children.flat().filter((it) => it !== null && it !== undefined && it !== false));
+  return made;
+}
+
+function speak() {
+  document.documentElement.dataset.lang = language;
+  document.documentElement.lang = language;
+  const button = document.getElementById("language");
+  button.hidden = false;
+  button.textContent = t("language");
+  button.lang = language === "en" ? "fr" : "en";
+}
+
+function changeLanguage(after) {
+  document.getElementById("language").addEventListener("click", () => {
+    language = language === "en" ? "fr" : "en";
+    try { localStorage.setItem("chereme-language", language); } catch { /* It is chosen again next time. */ }
+    speak();
+    after();
+  });
+}
+
+const link = (name) => "sign/" + encodeURIComponent(name) + "/index.html";
+
+// The numbers of data files: see codes.rs.
+class Numbers {
+  constructor(text) {
+    const letters = atob(text);
+    this.bytes = new Uint8Array(letters.length);
+    for (let at = 0; at < letters.length; at += 1) this.bytes[at] = letters.charCodeAt(at);
+    this.at = 0;
+  }
+
+  number() {
+    let rest = 0;
+    let scale = 1;
+    for (;;) {
+      const byte = this.bytes[this.at];
+      this.at += 1;
+      rest += (byte & 127) * scale;
+      if (!(byte & 128)) break;
+      scale *= 128;
+    }
+    return rest % 2 ? -(rest + 1) / 2 : rest / 2;
+  }
+
+  row(length) {
+    const order = this.bytes[this.at];
+    this.at += 1;
+    const row = new Float64Array(length);
+    if (order === 0) return row.fill(this.number());
+    for (let at = 0; at < length; at += 1) row[at] = this.number();
+    for (let again = 0; again < order; again += 1) for (let at = 1; at < length; at += 1) row[at] += row[at - 1];
+    return row;
+  }
+}

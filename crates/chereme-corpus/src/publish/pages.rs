@@ -1,0 +1,198 @@
+//! The pages of a dictionary as HTML. They work without a script.
+
+use std::fmt::Write as _;
+
+use crate::Origin;
+use crate::db::columns::ValueState;
+use crate::inventories::StoredInventory;
+use crate::map::escaped;
+use crate::page::{filled, quoted};
+
+use super::entries::{Entry, Moves};
+use super::facets::known;
+use super::names::in_address;
+use super::words::{self, both};
+
+const INDEX: &str = include_str!("page/index.html");
+const SIGN: &str = include_str!("page/sign.html");
+const LIST: &str = include_str!("page/list.html");
+
+/// The script of all pages, in one file.
+pub(super) const SCRIPT: [&str; 5] = [
+    include_str!("page/texts.js"),
+    include_str!("page/common.js"),
+    include_str!("page/search.js"),
+    include_str!("page/player.js"),
+    include_str!("page/sign.js"),
+];
+pub(super) const STYLE: &str = include_str!("page/app.css");
+
+/// What a browser may do with a page: nothing but show files of the same folder.
+const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; form-action 'none'; base-uri 'none'";
+
+/// The size of the still picture of a sign, in pixels.
+pub(super) const STILL: [usize; 2] = [320, 400];
+
+/// What all pages of a dictionary share.
+pub(super) struct Site<'a> {
+    pub(super) title: &'a str,
+    pub(super) contact: Option<&'a str>,
+    pub(super) inventories: &'a [StoredInventory],
+}
+
+impl Site<'_> {
+    fn page(&self, page: &str, parts: &[(&str, &str)]) -> String {
+        let title = escaped(self.title);
+        let mut footer = both(&words::LOCAL);
+        if let Some(contact) = self.contact {
+            let contact = escaped(contact);
+            footer = format!("<p>{} {contact}</p><p>{footer}</p>", both(&words::CONTACT));
+        }
+        let mut all = vec![
+            ("POLICY", POLICY),
+            ("TITLE", title.as_str()),
+            ("FOOTER", footer.as_str()),
+        ];
+        all.extend_from_slice(parts);
+        filled(page, &all)
+    }
+
+    /// Returns the first page.
+    pub(super) fn index(&self) -> String {
+        let link = format!("<a href=\"list.html\">{}</a>", both(&words::ALL));
+        let noscript = format!("{} {link}", both(&words::NO_SCRIPT));
+        self.page(INDEX, &[("NOSCRIPT", &noscript)])
+    }
+
+    /// Returns the list of all signs.
+    pub(super) fn list(&self, entries: &[Entry]) -> String {
+        let mut signs = String::new();
+        for entry in entries {
+            let texts: Vec<String> = entry.texts.iter().map(|(_, text)| escaped(text)).collect();
+            let _ = writeln!(
+                signs,
+                "<li><a href=\"sign/{}/index.html\">{}</a> {}</li>",
+                in_address(&entry.name),
+                escaped(&entry.gloss),
+                texts.join(", ")
+            );
+        }
+        let count = entries.len();
+        let intro = both(&[format!("{count} signs"), format!("{count} signes")]);
+        self.page(LIST, &[("INTRO", &intro), ("SIGNS", &signs)])
+    }
+
+    /// Returns the page of a sign; `body` is the name of its body's file, if it moves.
+    pub(super) fn sign(&self, entry: &Entry, entries: &[Entry], body: Option<&str>) -> String {
+        let mut texts = String::new();
+        for (language, text) in &entry.texts {
+            let (language, text) = (quoted(language), escaped(text));
+            let _ = write!(texts, "<li lang=\"{language}\">{text}</li>");
+        }
+        let gloss = quoted(&entry.gloss);
+        let (mut stage, mut picture) = (String::new(), String::new());
+        if let Some(body) = body {
+            let name = quoted(&entry.name);
+            stage = format!(" data-motion=\"{name}\" data-body=\"{body}\"");
+            let [width, height] = STILL;
+            picture = format!(
+                "<img src=\"still.png\" width=\"{width}\" height=\"{height}\" alt=\"{gloss}\">"
+            );
+        }
+        let notes = entry.notes.as_ref().map_or(String::new(), |text| {
+            format!("<h2>{}</h2><p>{}</p>", both(&words::NOTES), escaped(text))
+        });
+        let terms: Vec<String> = entry.terms.iter().map(|it| escaped(it)).collect();
+        let terms = format!("{} {}", both(&words::TERMS), terms.join("; "));
+        self.page(
+            SIGN,
+            &[
+                ("GLOSS", &gloss),
+                ("WORDS", &texts),
+                ("STAGE", &stage),
+                ("PICTURE", &picture),
+                ("FORM", &self.form(entry)),
+                ("PAIRS", &self.pairs(entry, entries)),
+                ("NOTES", &notes),
+                ("SOURCE", &both(&words::SOURCE)),
+                ("ORIGIN", &origin(entry, body.is_some())),
+                ("TERMS", &terms),
+            ],
+        )
+    }
+
+    /// Returns the values of a sign in words.
+    fn form(&self, entry: &Entry) -> String {
+        let mut rows = String::new();
+        for row in &entry.values {
+            let Some(id) = row
+                .value
+                .as_deref()
+                .filter(|_| row.state == ValueState::Value)
+            else {
+                continue;
+            };
+            let field = words::field(row.component, row.feature.as_deref(), row.hand, row.phase);
+            let value = match known(self.inventories, row) {
+                Some((_, value)) => self.value(id, [value.name("en"), value.name("fr")]),
+                None => escaped(id),
+            };
+            let _ = write!(rows, "<dt>{}</dt><dd>{value}</dd>", both(&field));
+        }
+        match rows.is_empty() {
+            true => rows,
+            false => format!("<h2>{}</h2><dl>{rows}</dl>", both(&words::FORM)),
+        }
+    }
+
+    /// Returns a value's id with its name, unless they are alike.
+    fn value(&self, id: &str, names: [&str; 2]) -> String {
+        let alike = names.iter().all(|name| name.replace(' ', "-") == id);
+        match alike {
+            true => escaped(id),
+            false => format!("{} <small>{}</small>", both(&names), escaped(id)),
+        }
+    }
+
+    fn pairs(&self, entry: &Entry, entries: &[Entry]) -> String {
+        let mut rows = String::new();
+        for (other, field) in &entry.pairs {
+            let other = &entries[*other];
+            let value = |of: &Entry| {
+                let value = of.coding.get(field).map(String::as_str);
+                value.filter(|it| !it.is_empty()).unwrap_or("–").to_owned()
+            };
+            let _ = write!(
+                rows,
+                "<li><a class=\"pair\" href=\"../{}/index.html\">{}</a> ({}: {} → {})</li>",
+                in_address(&other.name),
+                escaped(&other.gloss),
+                both(&words::coded_field(field)),
+                escaped(&value(entry)),
+                escaped(&value(other)),
+            );
+        }
+        match rows.is_empty() {
+            true => rows,
+            false => format!(
+                "<h2>{}</h2><ul class=\"pairs\">{rows}</ul>",
+                both(&words::PAIRS)
+            ),
+        }
+    }
+}
+
+/// Returns the origin of a sign's movement, and the number of its signer.
+fn origin(entry: &Entry, shown: bool) -> String {
+    let words = match (entry.moves, entry.token.origin) {
+        (Moves::Withheld, _) => words::HELD,
+        (Moves::Never, _) => words::LISTED,
+        (Moves::Public, _) if !shown => words::UNSHOWN,
+        (_, Origin::Captured) => words::CAPTURED,
+        (_, Origin::Made) => words::MADE,
+        _ => words::GENERATED,
+    };
+    let signer = entry.person.filter(|_| shown);
+    let signer = signer.map(|it| format!(" ({} {it})", both(&words::SIGNER)));
+    format!("{}{}", both(&words), signer.unwrap_or_default())
+}

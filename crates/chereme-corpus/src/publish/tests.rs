@@ -1,0 +1,231 @@
+use std::fs;
+
+use super::*;
+use crate::consent::tests::corpus;
+use crate::{Audience, ConsentChange, SignChange, unheard};
+
+fn granted(audience: Audience) -> ConsentChange {
+    let said = Some(Some(audience));
+    ConsentChange {
+        movement: said,
+        annotation: said,
+        derived: said,
+        licence: Some("CC BY 4.0".into()),
+        ..ConsentChange::default()
+    }
+}
+
+fn consent(corpus: &mut Corpus, who: &str, audience: Audience) {
+    let who = [who.parse().expect("an address")];
+    let change = granted(audience);
+    corpus.change_consent(&who, &change).expect("changed");
+}
+
+fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> Result<Published> {
+    let options = PublishOptions {
+        terms: terms.map(str::to_owned),
+        title: Some("Signs & </script> \"@@GLOSS@@\"".into()),
+        ..PublishOptions::default()
+    };
+    corpus.publish(to, &options, &mut Progress::new(&mut unheard))
+}
+
+/// Returns the files of a folder with their bytes.
+fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    fn walk(folder: &Path, prefix: &str, files: &mut BTreeMap<String, Vec<u8>>) {
+        for entry in fs::read_dir(folder).expect("a folder").flatten() {
+            let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
+            match entry.path().is_dir() {
+                true => walk(&entry.path(), &format!("{name}/"), files),
+                false => drop(files.insert(name, fs::read(entry.path()).expect("read"))),
+            }
+        }
+    }
+    let mut all = BTreeMap::new();
+    walk(folder, "", &mut all);
+    all
+}
+
+fn holding(files: &BTreeMap<String, Vec<u8>>, text: &str) -> Vec<String> {
+    let text = fold(text);
+    let found = files.iter().filter(|(name, bytes)| {
+        fold(name).contains(&text) || fold(&String::from_utf8_lossy(bytes)).contains(&text)
+    });
+    found.map(|(name, _)| name.clone()).collect()
+}
+
+/// Returns the text of an address.
+fn decoded(address: &str) -> String {
+    let mut pieces = address.split('%');
+    let mut bytes = pieces.next().unwrap_or_default().as_bytes().to_vec();
+    for piece in pieces {
+        bytes.push(u8::from_str_radix(&piece[..2], 16).expect("two digits"));
+        bytes.extend(&piece.as_bytes()[2..]);
+    }
+    String::from_utf8(bytes).expect("text")
+}
+
+#[test]
+fn nothing_is_published_that_nobody_agreed_to() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    let to = folder.path().join("site");
+    let error = publish(&mut corpus, &to, None).expect_err("nothing may be published");
+    let remedy = error.remedy().map(|it| it.text().to_owned());
+    assert!(remedy.is_some_and(|it| it.contains("chereme consent") || it.contains("--terms")));
+    assert!(!to.exists());
+    // Entries of the lexicon show nobody; their terms are enough.
+    let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
+    assert!(done.signs > 3 && done.moving == 0 && done.signers == 0);
+    let left: Vec<(Withheld, bool)> = done
+        .left_out
+        .iter()
+        .map(|it| (it.why, it.movement))
+        .collect();
+    // LIMACE is an entry, too; ESCARGOT and BOL are left out completely.
+    let unknown = Withheld::ConsentUnknown;
+    assert_eq!(left, [(unknown, false), (unknown, true)]);
+    assert_eq!(done.left_out[1].first, ["LIMACE"]);
+    assert!(holding(&files(&to), "escargot").is_empty());
+}
+
+#[test]
+fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    consent(&mut corpus, "signer:Ada", Audience::Public);
+    let change = SignChange {
+        notes: Some(Some("Ada was tired that day".into())),
+        ..SignChange::default()
+    };
+    corpus
+        .change_sign(&crate::Name::Text("BOL".into()), &change)
+        .expect("changed");
+    let to = folder.path().join("site");
+    let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
+    assert_eq!((done.moving, done.signers), (3, 1), "{done:?}");
+    assert!(done.left_out.is_empty());
+    let first = files(&to);
+    publish(&mut corpus, &folder.path().join("again"), Some("CC0")).expect("published");
+    assert_eq!(first, files(&folder.path().join("again")), "the same bytes");
+    for name in ["Ada", "tired", "a.chereme", ".bvh", ".eaf", "lexicon.csv"] {
+        // Words of the program's own texts and of glosses hold these letters, too.
+        let found = holding(&first, name);
+        let data = found
+            .iter()
+            .filter(|it| !it.starts_with("data/") && !it.ends_with(".png"));
+        let own: Vec<&String> = data
+            .filter(|it| !["app.js", "app.css"].contains(&it.as_str()))
+            .collect();
+        assert!(own.is_empty(), "{name}: {own:?}");
+    }
+    fs::write(to.join("own.txt"), "mine").expect("written");
+    consent(&mut corpus, "recording:bol", Audience::Nobody);
+    let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
+    assert_eq!(done.left_out[0].first, ["BOL"]);
+    let mut second = files(&to);
+    assert!(second.remove("own.txt").is_some());
+    assert!(holding(&second, "sign/BOL").is_empty() && !holding(&first, "sign/BOL").is_empty());
+    let index = String::from_utf8(second["data/signs.js"].clone()).expect("text");
+    assert!(!index.contains("\"BOL\"") && index.contains("\"ESCARGOT\""));
+    assert!(second.len() < first.len());
+}
+
+#[test]
+fn pages_work_without_a_script_and_ask_no_other_computer() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    consent(&mut corpus, "signer:Ada", Audience::Public);
+    let to = folder.path().join("site");
+    publish(&mut corpus, &to, Some("CC0")).expect("published");
+    let all = files(&to);
+    let text = |name: &str| String::from_utf8(all[name].clone()).expect("text");
+    let page = text("sign/LIMACE/index.html");
+    for part in [
+        "<h1>LIMACE</h1>",
+        "src=\"still.png\"",
+        "lang=\"fr\">limace</li>",
+        "CC BY 4.0",
+        "Movement generated from recorded movement",
+        "../ESCARGOT/index.html",
+        "Signs &amp; &lt;/script&gt; \"@@GLOSS@@\"",
+    ] {
+        assert!(page.contains(part), "{part}\n{page}");
+    }
+    assert!(text("list.html").contains("sign/ESCARGOT/index.html"));
+    for (name, bytes) in &all {
+        let text = String::from_utf8_lossy(bytes);
+        if name.ends_with(".html") {
+            assert!(
+                text.contains("Content-Security-Policy") && text.contains("connect-src 'none'")
+            );
+        }
+        if !name.ends_with(".png") {
+            let own = text.replace("http://www.w3.org/2000/svg", "");
+            assert!(!own.contains("http:") && !own.contains("https:"), "{name}");
+        }
+        // Every link and file of a page is there.
+        if name.ends_with(".html") {
+            for piece in text.split("\"").skip(1).step_by(2) {
+                let wanted = piece.split('#').next().unwrap_or_default();
+                if wanted.ends_with(".html") || wanted.ends_with(".png") || wanted.ends_with(".js")
+                {
+                    let path = to.join(name).with_file_name("").join(decoded(wanted));
+                    assert!(path.exists(), "{name}: {wanted}");
+                }
+            }
+        }
+    }
+}
+
+/// Returns a page as a browser has it after its scripts ran; nothing if there is no browser.
+fn in_browser(address: &str) -> Option<String> {
+    let out = tempfile::NamedTempFile::new().expect("a file");
+    let mut browser = std::process::Command::new("chromium")
+        .args(["--headless", "--no-sandbox", "--disable-gpu", "--dump-dom"])
+        .args(["--virtual-time-budget=4000", address])
+        .stdout(out.reopen().expect("opened"))
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .ok()?;
+    for _ in 0..600 {
+        if browser.try_wait().expect("a child").is_some() {
+            return fs::read_to_string(out.path()).ok();
+        }
+        std::thread::sleep(std::time::Duration::from_millis(200));
+    }
+    // A browser that hangs says nothing about the page.
+    drop(browser.kill());
+    drop(browser.wait());
+    None
+}
+
+#[test]
+fn a_browser_searches_and_plays_from_the_disk() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut corpus = corpus(folder.path());
+    consent(&mut corpus, "signer:Ada", Audience::Public);
+    let to = folder.path().join("site");
+    publish(&mut corpus, &to, Some("CC0")).expect("published");
+    let address = |page: &str| format!("file://{}/{page}", to.display());
+    let Some(page) = in_browser(&address("index.html#lang=fr&h=U")) else {
+        println!("skipped: there is no chromium");
+        return;
+    };
+    let (exact, near) = page.split_once("id=\"near\"").expect("both lists");
+    let exact = exact.split_once("id=\"exact\"").expect("a list").1;
+    assert!(exact.contains("<b>LIMACE</b>") && !exact.contains("<b>ESCARGOT</b>"));
+    assert!(!near.contains("<b>LIMACE</b>"));
+    assert!(page.contains("Configuration") && page.contains("data-lang=\"fr\""));
+    let page = in_browser(&address("index.html#lang=en&q=SLUG&h=Y")).expect("a page");
+    let near = page.split_once("id=\"near\"").expect("a list").1;
+    assert!(page.contains("No sign is exactly so."));
+    assert!(
+        !near.contains("<b>ESCARGOT</b>"),
+        "a text that does not fit is no near miss"
+    );
+    let page = in_browser(&address("sign/LIMACE/index.html#lang=en")).expect("a page");
+    let plays =
+        page.contains("aria-label=\"movement of LIMACE\"") && page.contains("Camera: front");
+    assert!(plays || page.contains("no WebGL 2"), "{page}");
+}

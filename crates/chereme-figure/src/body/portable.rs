@@ -1,0 +1,351 @@
+//! A body for players elsewhere: a surface in bind space, and the few rotations that move it.
+//!
+//! A player computes the bones in order, from the motions of the [`Bone::Keyed`] ones, and moves each vertex by the
+//! weighted mean of its bones. The surface is that of [`Body`] without legs, and with its face at rest.
+
+use chereme_motion::{ModelPose, Skeleton};
+use glam::{Quat, Vec3};
+
+use super::shape::{place, rotation};
+use super::skin::{Follower, Motion, Rig, half};
+use super::trunk::TrunkRig;
+use super::{Body, Skin};
+use crate::palette::Colour;
+
+/// A surface whose vertices follow bones.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PortableBody {
+    /// The vertices, in the space of their bones.
+    pub vertices: Vec<PortableVertex>,
+    /// The corners of each triangle, anticlockwise seen from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The bones. A keyed one comes after its parent, which is keyed too; the others depend on keyed ones and on those
+    /// before them.
+    pub bones: Vec<Bone>,
+    /// For each keyed bone, the source of its motion.
+    sources: Vec<Source>,
+}
+
+/// A vertex of a portable body.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PortableVertex {
+    /// Its position in bind space, in metres.
+    pub place: Vec3,
+    /// Its colour before light falls on it.
+    pub colour: Colour,
+    /// Up to four bones that move it.
+    pub bones: [u16; 4],
+    /// The weights of these bones; their sum is 1.
+    pub weights: [f32; 4],
+}
+
+/// Something that moves vertices.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Bone {
+    /// A bone whose motion each posture gives.
+    Keyed {
+        /// The bone to which the motion is relative.
+        parent: Option<usize>,
+        /// The point of bind space about which it rotates.
+        from: Vec3,
+        /// The point that the parent would move to the same position, in the parent's bind space.
+        at: Vec3,
+    },
+    /// The same as another bone.
+    Same(usize),
+    /// A rotation between those of two bones about a shared point, by spherical interpolation.
+    Between {
+        /// The two bones.
+        ends: [usize; 2],
+        /// The share of the second one.
+        share: f32,
+    },
+    /// A bone halfway between two about a point of bind space; it becomes thicker across a bend by up to `swell`.
+    Half {
+        /// The bone before the bend.
+        parent: usize,
+        /// The bone behind it.
+        child: usize,
+        /// The point of bind space.
+        at: Vec3,
+        /// The direction of the limb in bind space.
+        along: Vec3,
+        /// The largest added share of the thickness.
+        swell: f32,
+    },
+}
+
+/// The motion of a keyed bone in a posture, relative to its parent; without one, in model space.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BoneMotion {
+    /// The rotation.
+    pub turn: Quat,
+    /// The distance of its point from where the parent alone would move it, in the parent's axes, in metres.
+    pub off: Vec3,
+}
+
+/// The source of a keyed bone's motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Source {
+    Follower(usize),
+    Joint(usize),
+}
+
+impl Body {
+    /// Returns the body for players elsewhere; `None` unless the skeleton has two arms.
+    #[must_use]
+    pub fn portable(&self, skeleton: &Skeleton) -> Option<PortableBody> {
+        let skin = self.skin.as_ref()?;
+        skin.rig.trunk.as_ref()?;
+        let mut out = PortableBody {
+            vertices: Vec::new(),
+            triangles: Vec::new(),
+            bones: Vec::new(),
+            sources: Vec::new(),
+        };
+        for index in 0..skin.rig.followers.len() {
+            let bone = bone(&skin.rig, index, skeleton);
+            if matches!(bone, Bone::Keyed { .. }) {
+                out.sources.push(Source::Follower(index));
+            }
+            out.bones.push(bone);
+        }
+        let mut places: Vec<Option<u32>> = vec![None; self.template.vertices.len()];
+        self.skin_vertices(skin, &mut places, &mut out);
+        for element in &self.elements {
+            let Some((joint, points)) = element.rigid() else {
+                continue;
+            };
+            let beside =
+                skin.rig.followers.iter().position(
+                    |it| matches!(it, Follower::Joint { joint: own, .. } if *own == joint),
+                );
+            let at = match beside.map(|it| &skin.rig.followers[it]) {
+                Some(Follower::Joint { at, .. }) => *at,
+                _ => Vec3::ZERO,
+            };
+            let own = out.bones.len();
+            out.bones.push(Bone::Keyed {
+                parent: beside,
+                from: Vec3::ZERO,
+                at,
+            });
+            out.sources.push(Source::Joint(joint));
+            for (vertex, point) in element.vertices().zip(points) {
+                places[vertex] = Some(out.vertices.len() as u32);
+                out.vertices.push(PortableVertex {
+                    place: *point,
+                    colour: self.template.vertices[vertex].colour,
+                    bones: [own as u16, 0, 0, 0],
+                    weights: [1.0, 0.0, 0.0, 0.0],
+                });
+            }
+        }
+        for triangle in &self.template.triangles {
+            if let [Some(a), Some(b), Some(c)] = triangle.map(|it| places[it as usize]) {
+                out.triangles.push([a, b, c]);
+            }
+        }
+        Some(out)
+    }
+
+    fn skin_vertices(&self, skin: &Skin, places: &mut [Option<u32>], out: &mut PortableBody) {
+        for (vertex, bound) in skin.vertices.clone().zip(&skin.bound) {
+            places[vertex] = Some(out.vertices.len() as u32);
+            out.vertices.push(PortableVertex {
+                place: bound.at,
+                colour: self.template.vertices[vertex].colour,
+                bones: bound.followers,
+                weights: bound.weights,
+            });
+        }
+    }
+
+    /// Returns the motions of the keyed bones of `portable`, made by [`portable`](Self::portable), in `pose`.
+    ///
+    /// # Panics
+    /// If `pose` has fewer joints than the body's skeleton.
+    #[must_use]
+    pub fn bone_motions(&self, portable: &PortableBody, pose: &ModelPose) -> Vec<BoneMotion> {
+        let Some(skin) = &self.skin else {
+            return Vec::new();
+        };
+        let moved = skin.rig.moved(pose);
+        let own = |source: &Source| match *source {
+            Source::Follower(index) => moved[index],
+            Source::Joint(joint) => {
+                Motion::new(rotation(pose, joint), Vec3::ZERO, place(pose, joint))
+            }
+        };
+        let keyed = portable.bones.iter().filter_map(|bone| match bone {
+            Bone::Keyed { parent, from, at } => Some((*parent, *from, *at)),
+            _ => None,
+        });
+        keyed
+            .zip(&portable.sources)
+            .map(|((parent, from, at), source)| {
+                let motion = own(source);
+                let to = moved_point(&motion, from);
+                let Some(parent) = parent.map(|it| moved[it]) else {
+                    return BoneMotion {
+                        turn: motion.turn.normalize(),
+                        off: to,
+                    };
+                };
+                let back = parent.turn.inverse();
+                BoneMotion {
+                    turn: (back * motion.turn).normalize(),
+                    off: back * (to - moved_point(&parent, at)),
+                }
+            })
+            .collect()
+    }
+}
+
+impl PortableBody {
+    /// Returns the positions of the vertices for the motions of the keyed bones, as a player computes them.
+    #[must_use]
+    pub fn posed(&self, keyed: &[BoneMotion]) -> Vec<Vec3> {
+        let rest = Motion::new(Quat::IDENTITY, Vec3::ZERO, Vec3::ZERO);
+        let mut motions = vec![rest; self.bones.len()];
+        let mut given = keyed.iter();
+        for (index, bone) in self.bones.iter().enumerate() {
+            let Bone::Keyed { parent, from, at } = *bone else {
+                continue;
+            };
+            let Some(own) = given.next() else { break };
+            motions[index] = match parent.map(|it| motions[it]) {
+                Some(parent) => Motion::new(
+                    parent.turn * own.turn,
+                    from,
+                    moved_point(&parent, at) + parent.turn * own.off,
+                ),
+                None => Motion::new(own.turn, from, own.off),
+            };
+        }
+        for (index, bone) in self.bones.iter().enumerate() {
+            motions[index] = match *bone {
+                Bone::Keyed { .. } => continue,
+                Bone::Same(other) => motions[other],
+                Bone::Between { ends, share } => {
+                    let [a, b] = ends.map(|it| motions[it]);
+                    Motion::new(a.turn.slerp(b.turn, share), a.from, a.to)
+                }
+                Bone::Half {
+                    parent,
+                    child,
+                    at,
+                    along,
+                    swell,
+                } => half([motions[parent], motions[child]], at, along, swell),
+            };
+        }
+        let matrices: Vec<_> = motions.iter().map(Motion::matrix).collect();
+        let place = |it: &PortableVertex| {
+            let shares = it.bones.iter().zip(it.weights);
+            let moved = shares.map(|(bone, weight)| {
+                let (turn, offset) = &matrices[usize::from(*bone)];
+                (*turn * it.place + *offset) * weight
+            });
+            moved.sum()
+        };
+        self.vertices.iter().map(place).collect()
+    }
+}
+
+/// Returns where a motion takes a point, without its stretch.
+fn moved_point(motion: &Motion, at: Vec3) -> Vec3 {
+    motion.turn * (at - motion.from) + motion.to
+}
+
+/// Returns a follower as a bone.
+fn bone(rig: &Rig, index: usize, skeleton: &Skeleton) -> Bone {
+    let find = |wanted: &dyn Fn(&Follower) -> bool| rig.followers[..index].iter().position(wanted);
+    let chest = || find(&|it| matches!(it, Follower::Chest));
+    let arm = |side: usize, joint: usize| {
+        rig.arms[side]
+            .as_ref()
+            .map_or(Vec3::ZERO, |it| it.places[joint])
+    };
+    let keyed = |parent: Option<usize>, at: Vec3| Bone::Keyed {
+        parent,
+        from: at,
+        at,
+    };
+    match rig.followers[index] {
+        Follower::Same(other) => Bone::Same(other),
+        Follower::Half {
+            parent,
+            child,
+            at,
+            along,
+            swell,
+        } => Bone::Half {
+            parent,
+            child,
+            at,
+            along,
+            swell,
+        },
+        Follower::Pelvis => keyed(
+            None,
+            rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::seat_place),
+        ),
+        Follower::Chest => keyed(
+            find(&|it| matches!(it, Follower::Pelvis)),
+            rig.trunk.as_ref().map_or(Vec3::ZERO, TrunkRig::chest_place),
+        ),
+        Follower::Shoulder(side) => keyed(chest(), arm(side, 0)),
+        Follower::Upper(side, share) => shared(rig, index, (side, share), false, arm(side, 0)),
+        Follower::Fore(side, share) => shared(rig, index, (side, share), true, arm(side, 1)),
+        Follower::Hand(side) => keyed(
+            find(&|it| matches!(it, Follower::Fore(own, share) if *own == side && *share == 1.0)),
+            arm(side, 2),
+        ),
+        Follower::Joint { joint, at, .. } => {
+            let above = skeleton.ancestors(joint).skip(1).find_map(|above| {
+                find(&|it| match it {
+                    Follower::Joint { joint, .. } => *joint == above,
+                    Follower::Hand(side) => rig.arms[*side]
+                        .as_ref()
+                        .is_some_and(|arm| arm.hand_joint() == above),
+                    _ => false,
+                })
+            });
+            keyed(above.or_else(chest), at)
+        }
+    }
+}
+
+/// Returns a part of an arm with a share of its rotation: the ends of the row are keyed, the others lie between them.
+fn shared(rig: &Rig, index: usize, (side, share): (usize, f32), fore: bool, at: Vec3) -> Bone {
+    let row = |wanted: f32| {
+        rig.followers.iter().position(|it| match it {
+            Follower::Upper(own, share) => !fore && *own == side && *share == wanted,
+            Follower::Fore(own, share) => fore && *own == side && *share == wanted,
+            _ => false,
+        })
+    };
+    if share > 0.0
+        && share < 1.0
+        && let (Some(a), Some(b)) = (row(0.0), row(1.0))
+    {
+        return Bone::Between {
+            ends: [a, b],
+            share,
+        };
+    }
+    let first = row(0.0).filter(|it| *it < index);
+    let parent = first.or_else(|| {
+        rig.followers[..index].iter().position(|it| match it {
+            Follower::Upper(own, share) => fore && *own == side && *share == 1.0,
+            Follower::Chest => !fore,
+            _ => false,
+        })
+    });
+    Bone::Keyed {
+        parent,
+        from: at,
+        at,
+    }
+}
