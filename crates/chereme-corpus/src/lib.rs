@@ -28,6 +28,7 @@ mod export;
 mod face;
 mod file_identity;
 mod film;
+mod forms;
 mod hands;
 mod import;
 mod info;
@@ -54,6 +55,7 @@ mod score;
 pub(crate) mod search;
 mod sources;
 mod starter;
+mod stats;
 pub mod study;
 mod suggest;
 mod tokens;
@@ -142,6 +144,7 @@ pub use face::{
 };
 pub use file_identity::FileIdentity;
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
+pub use forms::{Empty, FIELD_SETS, FormSource};
 pub use import::{
     BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,
     JointRole, MovementRead, Outcome, OwnEdit, OwnEdits, ReportFinding, RootRead, Saying, Shared,
@@ -157,7 +160,7 @@ pub use media::{MediaChange, MediaPlace, find_media, is_film};
 pub use merge::{Candidate, CorpusConflict, Decision, MergeReport};
 pub use movement::ChannelGroup;
 pub use notation::{Notation, read_notation};
-pub use pairs::{Dense, Empty, FIELD_SETS, Pair, PairOptions, Pairs};
+pub use pairs::{Dense, Pair, PairOptions, Pairs};
 pub use paths::paths_like;
 pub use picture::values as value_pictures;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
@@ -172,6 +175,11 @@ pub use search::{
     TallyRow, guessed, meant,
 };
 pub use starter::{StarterSign, starter_files, starter_signs, unpack_starter};
+pub use stats::{
+    Battison, Chance, CrossCell, Ends, Estimate, FieldAssociation, FieldContrast, FieldInDepth,
+    FieldStatistics, FieldValue, HandCondition, LexiconStatistics, StatsFinding, StatsOptions,
+    TwoHands,
+};
 pub use suggest::{Partner, Suggestions};
 pub use track::{
     Alignment, FitOptions, FitReport, FitResidual, MediaFile, NewTrack, PointsPiece, Signal,

@@ -16,7 +16,6 @@ use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::picture::write_svg;
 use crate::progress::{Progress, Step, Unit};
-use crate::search::SearchOptions;
 use crate::suggest::single_values;
 
 /// The signs of a map and the components that place them.
@@ -151,17 +150,7 @@ impl Corpus {
     ) -> Result<Vec<TokenRow>> {
         let tokens = match &options.query {
             None => signs::citations(self.store.read())?,
-            Some(query) => {
-                let all = SearchOptions {
-                    facets: false,
-                    ..SearchOptions::default()
-                };
-                let found = self.search_until(query, &all, progress)?;
-                let ids: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
-                signs::tokens(self.store.read(), &ids)?
-                    .into_values()
-                    .collect()
-            }
+            Some(query) => self.tokens_found(query, progress)?,
         };
         if tokens.len() > MOST {
             let text = format!(

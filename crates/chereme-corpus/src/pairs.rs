@@ -3,100 +3,24 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use chereme_formats::lexicon::{self, Column, LexiconEntry, Meaning};
-use chereme_sign::text::{did_you_mean, fold, nearest};
-use rusqlite::Connection;
 use serde::Serialize;
-use serde_json::{Map, Value};
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
-use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
-use crate::suggest;
-
-/// The treatment of an empty cell.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub enum Empty {
-    /// An empty cell is a value like any other: a sign without a weak hand differs from one with it, and two signs
-    /// without it are equal there.
-    #[default]
-    Value,
-    /// An empty cell is unknown: a sign with an empty field takes no part.
-    Unknown,
-}
+use crate::forms::{Empty, Form, FormSource, Forms, named_fields, numbered};
+use crate::progress::{Progress, unheard};
 
 /// The fields that are compared, and the treatment of empty cells.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct PairOptions {
     /// The fields: titles of the columns of an imported lexicon table, whose cells are compared as written; or fields
     /// of queries such as `dominant.configuration`, by which the citation forms of the corpus are compared. One word
-    /// such as `S13` may stand for a [set](FIELD_SETS). If empty, all coded fields.
+    /// such as `S13` may stand for a [set](crate::FIELD_SETS). If empty, all coded fields.
     pub fields: Vec<String>,
     /// The treatment of an empty cell.
     pub empty: Empty,
 }
-
-/// Named sets of columns of the Signbank.
-pub const FIELD_SETS: [(&str, &[&str]); 5] = [
-    (
-        "S13",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape change",
-            "Handshape weak",
-            "Relation between articulators",
-            "Location",
-            "Contact type",
-            "Movement direction",
-            "Movement shape",
-            "Repeated Movement",
-            "Alternating Movement",
-            "Relative orientation movement",
-            "Relative orientation location",
-        ],
-    ),
-    (
-        "F8",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Handshape change",
-            "Location",
-            "Movement shape",
-            "Movement direction",
-            "Repeated Movement",
-        ],
-    ),
-    (
-        "F7",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Location",
-            "Contact type",
-            "Movement shape",
-            "Movement direction",
-        ],
-    ),
-    (
-        "F5",
-        &[
-            "Handedness",
-            "Handshape strong",
-            "Handshape weak",
-            "Location",
-            "Movement direction",
-        ],
-    ),
-    (
-        "C3",
-        &["Handshape strong", "Location", "Movement direction"],
-    ),
-];
 
 /// The minimal pairs of a corpus.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -169,198 +93,37 @@ impl Corpus {
     /// # Errors
     /// [`Error::Wrong`] if a field does not exist, or there are more pairs than can be listed.
     pub fn pairs(&self, options: &PairOptions) -> Result<Pairs> {
-        let connection = self.store.read();
-        let named = match &options.fields[..] {
-            [one] => FIELD_SETS.iter().find(|(name, _)| name == one),
-            _ => None,
-        };
-        let fields: Vec<String> = match named {
-            Some((_, titles)) => titles.iter().map(|title| (*title).to_owned()).collect(),
-            None => options.fields.clone(),
-        };
-        let table = match of_tables(connection, &fields)? {
-            Some(table) => table,
-            None => of_citations(self, &fields)?,
-        };
-        pairs(table, options.empty)
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        let fields = named_fields(&options.fields);
+        pairs(self.forms(&fields, None, progress)?, options.empty)
     }
-}
-
-/// Signs with their cells, one for each field.
-struct Table {
-    fields: Vec<String>,
-    rows: Vec<(String, Vec<String>)>,
-}
-
-/// The entries of one table that the corpus still has: glosses and cells, by the line of the table.
-type Standing = BTreeMap<u64, Vec<(String, Map<String, Value>)>>;
-
-/// Returns the entries that the corpus has of each table, by the table's path, or its name if the path is not known.
-fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
-    let mut tables: BTreeMap<String, Standing> = BTreeMap::new();
-    for token in signs::lexicon_entries(connection)? {
-        let source = token.source.as_deref().unwrap_or_default();
-        let Ok(mut source) = serde_json::from_str::<Value>(source) else {
-            continue;
-        };
-        let place = source["path"].as_str().or(source["file"].as_str());
-        let (Some(place), Some(line)) = (place.map(str::to_owned), source["line"].as_u64()) else {
-            continue;
-        };
-        if let Value::Object(cells) = source["cells"].take() {
-            let lines = tables.entry(place).or_default();
-            let entries = lines.entry(line).or_default();
-            entries.push((token.gloss, cells));
-        }
-    }
-    Ok(tables)
-}
-
-/// Returns the gloss that the corpus has now for a row of a table; nothing if the corpus no longer has its sign.
-fn standing_gloss(table: &Standing, columns: &[Column], row: &LexiconEntry) -> Option<String> {
-    let entries = table.get(&row.line)?;
-    let same_cells = |cells: &Map<String, Value>| {
-        let filled = columns.iter().zip(&row.cells).filter(|(column, cell)| {
-            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
-        });
-        let own: BTreeMap<&str, &str> = filled
-            .map(|(column, cell)| (column.title.as_str(), cell.as_str()))
-            .collect();
-        own.len() == cells.len()
-            && own
-                .iter()
-                .all(|(title, cell)| cells.get(*title).and_then(Value::as_str) == Some(*cell))
-    };
-    let named = entries.iter().find(|(gloss, _)| *gloss == row.gloss);
-    // A sign that was renamed in the corpus is known by its cells.
-    let found = named.or_else(|| entries.iter().find(|(_, cells)| same_cells(cells)))?;
-    Some(found.0.clone())
-}
-
-/// Returns the rows of the imported tables that have all the columns, if there are such tables: those of the newest
-/// version of each table whose signs the corpus still has.
-fn of_tables(connection: &Connection, fields: &[String]) -> Result<Option<Table>> {
-    let mut rows = Vec::new();
-    let mut known: BTreeSet<String> = BTreeSet::new();
-    let (mut has_columns, tables) = (false, standing(connection)?);
-    for file in recordings::lexicon_files(connection)? {
-        let Some(bytes) = recordings::source_bytes(connection, file.id)? else {
-            continue;
-        };
-        let Ok((table, _)) = lexicon::read(&bytes, &Default::default()) else {
-            continue;
-        };
-        let place = |field: &String| {
-            let wanted = fold(field.trim());
-            let mut titles = table.columns.iter();
-            titles.position(|column| fold(column.title.trim()) == wanted)
-        };
-        known.extend(table.columns.iter().map(|it| it.title.clone()));
-        let Some(places) = fields.iter().map(place).collect::<Option<Vec<_>>>() else {
-            continue;
-        };
-        has_columns = true;
-        let place = file.path.as_ref().unwrap_or(&file.name);
-        let Some(entries) = tables.get(place) else {
-            continue;
-        };
-        rows.extend(table.entries.iter().filter_map(|entry| {
-            let gloss = standing_gloss(entries, &table.columns, entry)?;
-            let cells = places.iter().map(|at| entry.cells[*at].trim().to_owned());
-            Some((gloss, cells.collect()))
-        }));
-    }
-    if !has_columns || fields.is_empty() {
-        let title = |field: &&String| field.parse::<chereme_sign::Field>().is_err();
-        return match fields.iter().find(title) {
-            None => Ok(None),
-            Some(field) => {
-                let near = did_you_mean(nearest(field, known.iter().map(String::as_str)));
-                let titles: Vec<&str> = known.iter().map(String::as_str).collect();
-                let text =
-                    format!("no imported table has a column {field:?} with the others{near}");
-                Err(Error::wrong(text).at(field).advise(format!(
-                    "name fields of queries such as dominant.configuration, or columns of one table: {}",
-                    titles.join(", ")
-                )))
-            }
-        };
-    }
-    let fields = fields.to_vec();
-    Ok(Some(Table { fields, rows }))
-}
-
-/// Returns the codings of the citation forms, by query field.
-fn of_citations(corpus: &Corpus, fields: &[String]) -> Result<Table> {
-    let connection = corpus.store.read();
-    let mut codings = Vec::new();
-    for token in signs::citations(connection)? {
-        let coding = corpus.coding_of(&token)?;
-        if !coding.is_empty() {
-            codings.push((token.gloss, coding));
-        }
-    }
-    let coded: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
-    let wanted = |field: &String| -> Result<String> {
-        let written = match field.parse::<chereme_sign::Field>() {
-            Ok(field) => suggest::coding_name(&field),
-            Err(error) => return Err(Error::wrong(error.to_string()).at(field)),
-        };
-        if coded.contains(&written) {
-            return Ok(written);
-        }
-        let names: Vec<&str> = coded.iter().map(|it| it.as_str()).collect();
-        let text = format!("no citation form is coded for {field}");
-        Err(Error::wrong(text)
-            .at(field)
-            .advise(format!("coded are: {}", names.join(", "))))
-    };
-    let keys: Vec<String> = match fields {
-        [] => coded.iter().map(|it| (*it).clone()).collect(),
-        some => some.iter().map(wanted).collect::<Result<_>>()?,
-    };
-    let rows = codings.iter().map(|(gloss, coding)| {
-        let cells = keys.iter().map(|key| coding.get(key).cloned());
-        (
-            gloss.clone(),
-            cells.map(Option::unwrap_or_default).collect(),
-        )
-    });
-    Ok(Table {
-        rows: rows.collect(),
-        fields: keys,
-    })
 }
 
 /// Returns the minimal pairs of codings, by all fields that one of them has.
 pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Result<Pairs> {
     let fields: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
-    let cells = |coding: &BTreeMap<String, String>| {
-        let cells = fields.iter().map(|field| coding.get(*field).cloned());
-        cells.map(Option::unwrap_or_default).collect()
-    };
-    let rows = codings.iter().filter(|(_, it)| !it.is_empty());
-    let table = Table {
-        rows: rows.map(|(gloss, it)| (gloss.clone(), cells(it))).collect(),
-        fields: fields.iter().map(|it| (*it).clone()).collect(),
-    };
-    pairs(table, Empty::Value)
+    let fields = fields.into_iter().cloned().collect();
+    let coded = codings.iter().filter(|(_, it)| !it.is_empty());
+    let coded: Vec<(String, BTreeMap<String, String>)> = coded.cloned().collect();
+    pairs(
+        Forms::of(&coded, fields, FormSource::Citations),
+        Empty::Value,
+    )
 }
 
-fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
+fn pairs(mut table: Forms, empty: Empty) -> Result<Pairs> {
     if empty == Empty::Unknown {
-        table
-            .rows
-            .retain(|(_, cells)| cells.iter().all(|cell| !cell.is_empty()));
+        table.rows.retain(Form::is_complete);
     }
     table.rows.sort();
-    let cells = numbered(&table.rows);
+    let (cells, _) = numbered(&table.rows);
     let forms = groups(&cells, None);
     let several = || forms.values().filter(|group| group.len() > 1);
     let mut found: Vec<(usize, usize, usize)> = Vec::new();
     let mut by_field = Vec::new();
     let mut certain = 0;
-    for (field, name) in table.fields.iter().enumerate() {
+    for (field, own) in table.fields.iter().enumerate() {
         let before = found.len();
         for group in groups(&cells, Some(field)).values() {
             for (at, one) in group.iter().enumerate() {
@@ -379,7 +142,7 @@ fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
                 }
             }
         }
-        by_field.push((name.clone(), found.len() - before));
+        by_field.push((own.name.clone(), found.len() - before));
     }
     by_field.sort_by_key(|(_, count)| std::cmp::Reverse(*count));
     let mut degrees = vec![0; table.rows.len()];
@@ -400,21 +163,9 @@ fn pairs(mut table: Table, empty: Empty) -> Result<Pairs> {
         by_field,
         densest: densest(&table, &degrees),
         sha256: sha256(&list),
-        fields: table.fields,
+        fields: table.fields.into_iter().map(|it| it.name).collect(),
         list,
     })
-}
-
-/// Returns the cells as numbers that are equal if the texts are equal; the empty cell is 0.
-fn numbered(rows: &[(String, Vec<String>)]) -> Vec<Vec<u32>> {
-    let mut known: BTreeMap<&str, u32> = BTreeMap::from([("", 0)]);
-    let mut number = |text| {
-        let next = u32::try_from(known.len()).unwrap_or(u32::MAX);
-        *known.entry(text).or_insert(next)
-    };
-    rows.iter()
-        .map(|(_, cells)| cells.iter().map(|cell| number(cell.as_str())).collect())
-        .collect()
 }
 
 /// Returns groups of rows that are equal in all fields, or in all fields but `without`; rows are in order.
@@ -431,11 +182,11 @@ fn groups(cells: &[Vec<u32>], without: Option<usize>) -> BTreeMap<Vec<u32>, Vec<
 }
 
 /// Returns the pairs in the order of their lines; rows are sorted by gloss.
-fn listed(table: &Table, found: &[(usize, usize, usize)]) -> Vec<Pair> {
+fn listed(table: &Forms, found: &[(usize, usize, usize)]) -> Vec<Pair> {
     let pair = |(one, other, field): &(usize, usize, usize)| Pair {
-        a: table.rows[*one].0.clone(),
-        b: table.rows[*other].0.clone(),
-        field: table.fields[*field].clone(),
+        a: table.rows[*one].gloss.clone(),
+        b: table.rows[*other].gloss.clone(),
+        field: table.fields[*field].name.clone(),
     };
     let mut list: Vec<Pair> = found.iter().map(pair).collect();
     list.sort_by_cached_key(line);
@@ -458,11 +209,11 @@ fn sha256(list: &[Pair]) -> String {
     text
 }
 
-fn densest(table: &Table, degrees: &[usize]) -> Vec<Dense> {
+fn densest(table: &Forms, degrees: &[usize]) -> Vec<Dense> {
     let mut all: Vec<(usize, &String)> = degrees
         .iter()
         .zip(&table.rows)
-        .map(|(degree, (gloss, _))| (*degree, gloss))
+        .map(|(degree, form)| (*degree, &form.gloss))
         .filter(|(degree, _)| *degree > 0)
         .collect();
     all.sort_by(|a, b| b.0.cmp(&a.0).then_with(|| a.1.cmp(b.1)));

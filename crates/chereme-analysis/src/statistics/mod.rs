@@ -1,4 +1,4 @@
-//! Statistics of ratings and choices in perceptual studies, for answers with few values and many ties.
+//! Statistics of ratings and choices in perceptual studies, for answers with few values and many ties, and of lexica.
 //!
 //! Every function takes plain numbers and is pure. A statistic without a value is [`Undefined`], with the reason; no function
 //! returns a NaN, and none accepts one: leave such values out, and count them.
@@ -12,7 +12,8 @@
 //! | several conditions, same people | [`friedman`] |
 //! | shares | [`wilson`], [`fisher`], [`mcnemar`] |
 //! | two measures of the same things | [`spearman`], [`kendall`] |
-//! | intervals and sameness | [`Resamples`], [`equivalence`] |
+//! | intervals and sameness | [`Resamples`], [`jackknife`], [`equivalence`] |
+//! | values without an order | [`Classes`] (entropy), [`functional_load`], [`contrasts`], [`Association`], [`Shuffled`] |
 //! | a model of answers on a scale | [`ordinal::fit`] |
 //!
 //! ```
@@ -28,9 +29,11 @@
 use serde::{Deserialize, Serialize};
 use statrs::distribution::{ContinuousCDF, Normal};
 
+mod association;
 mod correlation;
 mod describe;
 mod groups;
+mod information;
 pub mod ordinal;
 mod pairs;
 mod resample;
@@ -38,13 +41,15 @@ mod shares;
 #[cfg(test)]
 mod tests;
 
+pub use association::{Association, Shuffled};
 pub use correlation::{Correlation, kendall, spearman};
 pub use describe::{Description, Ranks, mid_ranks, quantile};
 pub use groups::{
     Comparison, Effect, KruskalWallis, MannWhitney, Size, holm, kruskal_wallis, mann_whitney,
 };
+pub use information::{Classes, Contrast, contrasts, functional_load, functional_load_interval};
 pub use pairs::{Friedman, Wilcoxon, Zeros, friedman, wilcoxon};
-pub use resample::{Equivalence, Interval, Resamples, equivalence};
+pub use resample::{Equivalence, Interval, Resamples, equivalence, jackknife};
 pub use shares::{Fisher, fisher, mcnemar, wilson};
 
 /// The reason why a statistic has no value.

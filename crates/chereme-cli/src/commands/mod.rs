@@ -32,6 +32,7 @@ mod recombine;
 mod render;
 mod score;
 mod search;
+mod stats;
 mod studio;
 mod study;
 mod suggest;
@@ -95,6 +96,7 @@ commands! {
     Onsets => onsets::run(Args) or offer_force;
     Suggest => suggest::run(Args);
     Pairs => pairs::run(Args);
+    Stats => stats::run(Args) or offer_force;
     Agree => agree::run(Args) or offer_force;
     Map => map::run(Args) or offer_force;
     Transcribe => transcribe::run(Args);

@@ -31,22 +31,29 @@ pub(crate) struct Args {
     list: bool,
 }
 
+/// The treatment of empty fields, as the word for it in an argument.
 #[derive(Debug, Clone, Copy, ValueEnum)]
-enum EmptyWord {
+pub(super) enum EmptyWord {
     /// An empty field is a value like any other
     Value,
     /// An empty field is unknown: signs with an empty field do not count
     Unknown,
 }
 
+impl From<EmptyWord> for Empty {
+    fn from(word: EmptyWord) -> Self {
+        match word {
+            EmptyWord::Value => Self::Value,
+            EmptyWord::Unknown => Self::Unknown,
+        }
+    }
+}
+
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
     let found = corpus.pairs(&PairOptions {
         fields: args.fields.clone(),
-        empty: match args.empty {
-            EmptyWord::Value => Empty::Value,
-            EmptyWord::Unknown => Empty::Unknown,
-        },
+        empty: args.empty.into(),
     })?;
     output.line(format!(
         "{} pairs of {} signs ({} compared by {}), {} of them certain: both values are given",

@@ -1,5 +1,7 @@
 //! Tests of minimal pairs in small tables, and in one that was counted independently.
 
+use std::collections::BTreeSet;
+
 use super::*;
 use crate::progress::Progress;
 use crate::{ImportOptions, unheard};

@@ -36,6 +36,7 @@ use rusqlite::Connection;
 
 use crate::Corpus;
 use crate::db::search as rows;
+use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result, WrongQuery};
 use crate::progress::{Progress, Step, Unit, unheard};
 use crate::saved_search;
@@ -104,6 +105,25 @@ impl Corpus {
         self.asked(query, progress, &mut |ask, query| {
             answer(ask, query, options)
         })
+    }
+
+    /// Returns the tokens that a query finds, in the order of their rows.
+    ///
+    /// # Errors
+    /// Those of [`search_until`](Self::search_until).
+    pub(crate) fn tokens_found(
+        &mut self,
+        query: &str,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<TokenRow>> {
+        let all = SearchOptions {
+            facets: false,
+            ..SearchOptions::default()
+        };
+        let found = self.search_until(query, &all, progress)?;
+        let ids: Vec<i64> = found.hits.iter().map(|hit| hit.token).collect();
+        let tokens = signs::tokens(self.store.read(), &ids)?;
+        Ok(tokens.into_values().collect())
     }
 
     /// Evaluates a query with `ask` on one state of the corpus.

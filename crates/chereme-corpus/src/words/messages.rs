@@ -15,6 +15,7 @@ use super::captures::CAPTURES;
 use super::coding::CODING;
 use super::composing::COMPOSING;
 use super::count::counted_in_french;
+use super::counting::COUNTING;
 use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::filming::FILMING;
@@ -518,6 +519,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
     let detectors = DETECTORS.iter().flat_map(|it| it.description().messages);
     let rest = AGREEING
         .iter()
+        .chain(COUNTING)
         .chain(NOTES)
         .chain(MOVING)
         .chain(IMPORTING)

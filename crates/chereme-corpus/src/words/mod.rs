@@ -28,6 +28,7 @@ mod captures;
 mod coding;
 mod composing;
 mod count;
+mod counting;
 pub mod deeds;
 pub mod deletion;
 mod documents;

@@ -1,0 +1,422 @@
+//! `chereme stats`: the statistics of a lexicon.
+
+mod french;
+
+use std::collections::BTreeMap;
+use std::path::PathBuf;
+
+use anyhow::Result;
+use chereme_corpus::{
+    Battison, Empty, Estimate, FieldAssociation, FieldInDepth, FieldStatistics, FieldValue,
+    HandCondition, LexiconStatistics, Progress, StatsFinding, StatsOptions, Step,
+};
+
+use super::pairs::EmptyWord;
+use crate::args::Cli;
+use crate::output::{Bar, Output};
+
+pub(super) use french::WORDS;
+
+/// Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
+///
+/// Every sign counts once, by its citation form; with a query every token that it finds. Fields are columns of an imported
+/// table, whose cells are taken as written, or fields of queries such as dominant.configuration, as in `chereme pairs`.
+///
+/// Entropy is in bits, from the shares as they are. The functional load of a field is the share of the entropy of forms
+/// that is lost without it, (H(L) - H(L without it)) / H(L); that of a contrast is the share that is lost if its two values are
+/// one. Intervals of 95 % are the jackknife's over entries, and Wilson's for shares. Draws with replacement would take the
+/// same entry twice, as a homonym that the lexicon does not have.
+///
+/// Association counts the entries that have both fields: mutual information, chi-square and Cramér's V. p is the share of
+/// shuffled lexica in which they go together at least as much. Fields with many rare values share information by chance
+/// alone: compare with the mean of the shuffled ones.
+///
+/// Battison's conditions: symmetrical signs have the same handshape on both hands; asymmetrical ones have the same one, or an
+/// unmarked one on the weak hand. They need the type of a sign (Signbank's 1, 2s, 2a, or words such as ASL-LEX's) and both
+/// handshapes.
+///
+/// `--json` gives "source" (columns, citations or tokens), "entries", "compared", "forms", "entropy", "fields" (each with "field",
+/// "values", "given", "empty", "successive", "entropy", "entropy_given", "load" and "frequent") and "findings"; with --of
+/// "of" ("values", "contrasts"), with --between "between" ("n", "bits", "chi_square", "df", "cramers_v", "p", "p_bits",
+/// "chance", "rows", "columns", "cells"), with --battison "battison" ("symmetry" and "dominance", each with "exceptions"). A
+/// number is "value" or null, "why", and "interval".
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  chereme stats mine.chereme
+  chereme stats mine.chereme --fields S13 --of 'Handshape strong'
+  chereme stats mine.chereme --between dominant.configuration placement --to table.csv
+  chereme stats mine.chereme --fields Handedness,'Handshape strong','Handshape weak' --battison
+  chereme stats mine.chereme origin=captured   (tokens instead of signs)")]
+pub(crate) struct Args {
+    /// The corpus
+    corpus: PathBuf,
+    /// The tokens to count, as in `chereme search`
+    query: Vec<String>,
+    /// The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3
+    #[arg(long, value_name = "A,B,...", value_delimiter = ',')]
+    fields: Vec<String>,
+    /// The treatment of empty fields
+    #[arg(long, value_enum, default_value_t = EmptyWord::Value)]
+    empty: EmptyWord,
+    /// All values of this field, and its contrasts
+    #[arg(long, value_name = "FIELD")]
+    of: Option<String>,
+    /// The association of these two fields, and their cross table
+    #[arg(long, num_args = 2, value_names = ["FIELD", "FIELD"])]
+    between: Vec<String>,
+    /// Battison's conditions on signs with two hands, and the signs that do not keep them
+    #[arg(long)]
+    battison: bool,
+    /// The handshapes that count as unmarked; without it B, A, S, C, O, 1, 5
+    #[arg(
+        long,
+        value_name = "A,B,...",
+        value_delimiter = ',',
+        requires = "battison"
+    )]
+    unmarked: Vec<String>,
+    /// The most values, contrasts and glosses that are printed
+    #[arg(long, value_name = "N", default_value_t = 20)]
+    limit: usize,
+    /// The number of shuffles for p; 0 computes none
+    #[arg(long, value_name = "N", default_value_t = 1000)]
+    samples: usize,
+    /// The seed of all draws; the same seed gives the same numbers
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Write a table (.csv): the cross table, the values of a field, the exceptions, or else the fields
+    #[arg(long, value_name = "FILE")]
+    to: Option<PathBuf>,
+    /// Replace a table that exists already
+    #[arg(long)]
+    force: bool,
+}
+
+impl Args {
+    fn options(&self) -> StatsOptions {
+        StatsOptions {
+            fields: self.fields.clone(),
+            empty: Empty::from(self.empty),
+            query: (!self.query.is_empty()).then(|| self.query.join(" ")),
+            of: self.of.clone(),
+            between: self.between.clone().try_into().ok(),
+            battison: self.battison,
+            unmarked: self.unmarked.clone(),
+            samples: self.samples,
+            seed: self.seed,
+        }
+    }
+}
+
+/// The most columns of a cross table that are printed.
+const MOST_COLUMNS: usize = 12;
+/// The most glosses that a finding names.
+const MOST_GLOSSES: usize = 12;
+
+pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
+    let mut corpus = cli.open(&args.corpus)?;
+    let mut bar = Bar::new();
+    let mut hear = |step: Step<'_>| bar.show(step);
+    let found = corpus.statistics(&args.options(), &mut Progress::new(&mut hear))?;
+    drop(bar);
+    if let Some(of) = &found.of {
+        in_depth(of, args.limit, output)?;
+    }
+    if let Some(between) = &found.between {
+        association(between, args.limit, output)?;
+    }
+    if let Some(battison) = &found.battison {
+        conditions(battison, args.limit, output)?;
+    }
+    if found.of.is_none() && found.between.is_none() && found.battison.is_none() {
+        overview(&found, output)?;
+    }
+    for finding in &found.findings {
+        print_finding(finding, output)?;
+    }
+    if let Some(path) = &args.to {
+        found.write_table(path, args.force)?;
+        output.line(format!("table: {}", path.display()))?;
+    }
+    output.document(found)
+}
+
+fn overview(found: &LexiconStatistics, output: &mut Output) -> Result<()> {
+    output.line(format!(
+        "entries: {}, compared: {}, different forms: {}",
+        found.entries, found.compared, found.forms
+    ))?;
+    output.line(format!(
+        "entropy of forms in bits: {}",
+        number(&found.entropy, 3, output)
+    ))?;
+    let frequent = |it: &FieldStatistics| -> String {
+        let frequent = it.frequent.iter();
+        let frequent = frequent.map(|it| format!("{} {}", it.value, percent(it.share)));
+        frequent.collect::<Vec<String>>().join(", ")
+    };
+    let row = |it: &FieldStatistics| {
+        vec![
+            it.field.clone(),
+            it.values.to_string(),
+            it.empty.to_string(),
+            value(&it.entropy, 3, output),
+            half(&it.entropy, 3),
+            value(&it.entropy_given, 3, output),
+            value(&it.load, 4, output),
+            half(&it.load, 4),
+            frequent(it),
+        ]
+    };
+    let rows: Vec<Vec<String>> = found.fields.iter().map(row).collect();
+    if rows.is_empty() {
+        return Ok(());
+    }
+    output.table(
+        &[
+            "field",
+            "values",
+            "empty",
+            "entropy",
+            "±",
+            "without empty",
+            "load",
+            "± load",
+            "most frequent",
+        ],
+        &rows,
+    )
+}
+
+fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> {
+    let own = &of.statistics;
+    output.line(format!(
+        "{}: {} values in {} entries, {} entries without one",
+        of.field, own.values, own.given, own.empty
+    ))?;
+    output.line(format!(
+        "entropy in bits: {}; without empty cells: {}",
+        number(&own.entropy, 4, output),
+        number(&own.entropy_given, 4, output)
+    ))?;
+    output.line(format!("functional load: {}", number(&own.load, 6, output)))?;
+    let row = |it: &FieldValue| {
+        let ends = it.interval;
+        let ends = ends.map(|it| format!("{} … {}", percent(it.low), percent(it.high)));
+        vec![
+            it.value.clone(),
+            it.count.to_string(),
+            percent(it.share),
+            ends.unwrap_or_default(),
+        ]
+    };
+    let rows: Vec<Vec<String>> = of.values.iter().take(limit).map(row).collect();
+    output.table(&["value", "count", "share", "95 %"], &rows)?;
+    if let Some(more) = rest(of.values.len(), limit) {
+        output.line(format!("values that are not shown: {more}; --json has all"))?;
+    }
+    if let Some(why) = of.why {
+        let why = output.spoken(why);
+        return output.line(format!("contrasts: - ({why})"));
+    }
+    let cell = |text: &String| match text.is_empty() {
+        true => "∅".to_owned(),
+        false => text.clone(),
+    };
+    let contrasts = of.contrasts.iter().take(limit);
+    let rows: Vec<Vec<String>> = contrasts
+        .map(|it| {
+            vec![
+                cell(&it.a),
+                cell(&it.b),
+                it.pairs.to_string(),
+                format!("{:.6}", it.load),
+            ]
+        })
+        .collect();
+    output.line("contrasts that distinguish signs, the largest load first; ∅ is the empty cell")?;
+    output.table(&["value", "other value", "minimal pairs", "load"], &rows)?;
+    if let Some(more) = rest(of.contrasts.len(), limit) {
+        output.line(format!(
+            "contrasts that are not shown: {more}; --json has all"
+        ))?;
+    }
+    Ok(())
+}
+
+fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Result<()> {
+    let [one, other] = &it.fields;
+    output.line(format!(
+        "{one} × {other}: {} entries with both, {} left out",
+        it.n, it.left_out
+    ))?;
+    let (bits, chi_square) = it
+        .chance
+        .map_or((None, None), |it| (Some(it.bits), Some(it.chi_square)));
+    let mean =
+        |it: Option<f64>, digits: usize| it.map_or("-".to_owned(), |it| format!("{it:.digits$}"));
+    output.line(format!(
+        "mutual information in bits: {} (shuffled: {}), p {}",
+        value(&it.bits, 4, output),
+        mean(bits, 4),
+        value(&it.p_bits, 4, output)
+    ))?;
+    output.line(format!(
+        "chi-square: {} (shuffled: {}), df {}, p {}",
+        value(&it.chi_square, 2, output),
+        mean(chi_square, 2),
+        it.df,
+        value(&it.p, 4, output)
+    ))?;
+    output.line(format!("Cramér's V: {}", value(&it.cramers_v, 4, output)))?;
+    let columns: Vec<&FieldValue> = it.columns.iter().take(MOST_COLUMNS).collect();
+    let title = format!("{one} / {other}");
+    let mut header = vec![title.as_str(), "all"];
+    header.extend(columns.iter().map(|column| column.value.as_str()));
+    let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
+    for cell in &it.cells {
+        counts.insert((&cell.row, &cell.column), cell.count);
+    }
+    let row = |row: &FieldValue| {
+        let mut cells = vec![row.value.clone(), row.count.to_string()];
+        cells.extend(columns.iter().map(|column| {
+            let count = counts.get(&(row.value.as_str(), column.value.as_str()));
+            count.copied().unwrap_or(0).to_string()
+        }));
+        cells
+    };
+    let rows: Vec<Vec<String>> = it.rows.iter().take(limit).map(row).collect();
+    output.columns(&header, &rows)?;
+    if let Some(more) = rest(it.rows.len(), limit) {
+        output.line(format!("rows that are not shown: {more}; --json has all"))?;
+    }
+    if let Some(more) = rest(it.columns.len(), MOST_COLUMNS) {
+        output.line(format!(
+            "columns that are not shown: {more}; --json has all"
+        ))?;
+    }
+    Ok(())
+}
+
+fn conditions(it: &Battison, limit: usize, output: &mut Output) -> Result<()> {
+    output.line(format!(
+        "one-handed: {}, symmetrical: {}, asymmetrical: {}, of no known type: {}",
+        it.one_handed, it.symmetry.entries, it.dominance.entries, it.other
+    ))?;
+    output.line(format!("unmarked handshapes: {}", it.unmarked.join(", ")))?;
+    output.line(format!(
+        "symmetry: both handshapes given {}, the same {}, different {}; kept by {}",
+        it.symmetry.given,
+        it.symmetry.same,
+        it.symmetry.different,
+        share(&it.symmetry.kept, output)
+    ))?;
+    output.line(format!(
+        "dominance: both handshapes given {}, the same {}, different {}, of these with an unmarked weak hand {}; kept by {}; weak hand unmarked in {}",
+        it.dominance.given,
+        it.dominance.same,
+        it.dominance.different,
+        it.dominance.different_unmarked,
+        share(&it.dominance.kept, output),
+        share(&it.dominance.unmarked_share, output)
+    ))?;
+    let [one, other] = [&it.symmetry, &it.dominance].map(|it| it.exceptions.len());
+    let title = format!("entries that do not keep symmetry: {one}");
+    exceptions(&title, &it.symmetry, limit, output)?;
+    let title = format!("entries that do not keep dominance: {other}");
+    exceptions(&title, &it.dominance, limit, output)
+}
+
+fn exceptions(
+    title: &str,
+    condition: &HandCondition,
+    limit: usize,
+    output: &mut Output,
+) -> Result<()> {
+    let count = condition.exceptions.len();
+    if count > 0 {
+        output.line(title)?;
+        let rows = condition.exceptions.iter().take(limit);
+        let row = |it: &chereme_corpus::TwoHands| {
+            vec![it.gloss.clone(), it.strong.clone(), it.weak.clone()]
+        };
+        let rows: Vec<Vec<String>> = rows.map(row).collect();
+        output.table(&["gloss", "strong hand", "weak hand"], &rows)?;
+        if let Some(more) = rest(count, limit) {
+            output.line(format!(
+                "exceptions that are not shown: {more}; --json has all"
+            ))?;
+        }
+    }
+    if !condition.incomplete.is_empty() {
+        output.line(format!(
+            "without one of the handshapes: {}",
+            some_of(&condition.incomplete)
+        ))?;
+    }
+    Ok(())
+}
+
+fn print_finding(finding: &StatsFinding, output: &mut Output) -> Result<()> {
+    output.warn(&finding.message)?;
+    if !finding.glosses.is_empty() {
+        output.line(format!("  entries: {}", some_of(&finding.glosses)))?;
+    }
+    match &finding.remedy {
+        Some(remedy) => output.advise(remedy),
+        None => Ok(()),
+    }
+}
+
+/// Returns the first glosses of a list, and how many follow.
+fn some_of(glosses: &[String]) -> String {
+    let shown = glosses[..glosses.len().min(MOST_GLOSSES)].join(", ");
+    match glosses.len().saturating_sub(MOST_GLOSSES) {
+        0 => shown,
+        more => format!("{shown} (+ {more})"),
+    }
+}
+
+/// Returns how many rows of a table are not shown, if some are not.
+fn rest(all: usize, limit: usize) -> Option<usize> {
+    all.checked_sub(limit).filter(|more| *more > 0)
+}
+
+/// Returns a number with its interval, or the reason for its absence.
+fn number(of: &Estimate, digits: usize, output: &Output) -> String {
+    let ends = of.interval;
+    let ends = ends.map(|it| format!(" ({:.digits$} … {:.digits$})", it.low, it.high));
+    format!("{}{}", value(of, digits, output), ends.unwrap_or_default())
+}
+
+/// Returns a number, or the reason for its absence.
+fn value(of: &Estimate, digits: usize, output: &Output) -> String {
+    match (of.value, of.why) {
+        (Some(value), _) => format!("{value:.digits$}"),
+        (None, Some(why)) => format!("- ({})", output.spoken(why)),
+        (None, None) => String::new(),
+    }
+}
+
+/// Returns half the width of an interval above the number; below it may be cut.
+fn half(of: &Estimate, digits: usize) -> String {
+    let half = of.value.zip(of.interval);
+    half.map(|(value, ends)| format!("{:.digits$}", ends.high - value))
+        .unwrap_or_default()
+}
+
+fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Returns a share in percent with its interval, or the reason for its absence.
+fn share(of: &Estimate, output: &Output) -> String {
+    match (of.value, of.interval) {
+        (Some(value), Some(ends)) => {
+            let (low, high) = (percent(ends.low), percent(ends.high));
+            format!("{} ({low} … {high})", percent(value))
+        }
+        _ => value(of, 4, output),
+    }
+}

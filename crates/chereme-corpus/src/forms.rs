@@ -1,0 +1,461 @@
+//! The forms of signs: what signs have in some fields, by which `pairs` and `stats` compare them.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use chereme_formats::lexicon::{self, Column, Lexicon, LexiconEntry, Meaning};
+use chereme_formats::roles::Hands;
+use chereme_sign::Field;
+use chereme_sign::text::{did_you_mean, fold, nearest};
+use rusqlite::Connection;
+use serde::Serialize;
+use serde_json::{Map, Value};
+
+use crate::Corpus;
+use crate::db::recordings::{self, SourceFileRow};
+use crate::db::signs::{self, TokenRow};
+use crate::error::{Error, Result};
+use crate::progress::{Progress, Step, Unit};
+use crate::suggest;
+
+/// The treatment of an empty cell.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Empty {
+    /// An empty cell is a value like any other: a sign without a weak hand differs from one with it, and two signs
+    /// without it are equal there.
+    #[default]
+    Value,
+    /// An empty cell is unknown: a sign with an empty field takes no part.
+    Unknown,
+}
+
+/// The number of tokens between two reports of progress.
+const STEP: usize = 64;
+
+/// Named sets of columns of the Signbank.
+pub const FIELD_SETS: [(&str, &[&str]); 5] = [
+    (
+        "S13",
+        &[
+            "Handedness",
+            "Handshape strong",
+            "Handshape change",
+            "Handshape weak",
+            "Relation between articulators",
+            "Location",
+            "Contact type",
+            "Movement direction",
+            "Movement shape",
+            "Repeated Movement",
+            "Alternating Movement",
+            "Relative orientation movement",
+            "Relative orientation location",
+        ],
+    ),
+    (
+        "F8",
+        &[
+            "Handedness",
+            "Handshape strong",
+            "Handshape weak",
+            "Handshape change",
+            "Location",
+            "Movement shape",
+            "Movement direction",
+            "Repeated Movement",
+        ],
+    ),
+    (
+        "F7",
+        &[
+            "Handedness",
+            "Handshape strong",
+            "Handshape weak",
+            "Location",
+            "Contact type",
+            "Movement shape",
+            "Movement direction",
+        ],
+    ),
+    (
+        "F5",
+        &[
+            "Handedness",
+            "Handshape strong",
+            "Handshape weak",
+            "Location",
+            "Movement direction",
+        ],
+    ),
+    (
+        "C3",
+        &["Handshape strong", "Location", "Movement direction"],
+    ),
+];
+
+/// The place from which forms come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FormSource {
+    /// Columns of imported tables, whose cells are taken as written.
+    Columns,
+    /// The codings of citation forms.
+    Citations,
+    /// The codings of the tokens that a query finds.
+    Tokens,
+}
+
+/// Signs with what they have in some fields.
+#[derive(Debug, Clone)]
+pub(crate) struct Forms {
+    /// The fields.
+    pub(crate) fields: Vec<FormField>,
+    /// The signs, each with a cell for each field.
+    pub(crate) rows: Vec<Form>,
+    /// The place from which they come.
+    pub(crate) source: FormSource,
+}
+
+/// A field by which signs are compared.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct FormField {
+    /// Its name: the title of a column, or a field of queries.
+    pub(crate) name: String,
+    /// The field of queries, such as `dominant.configuration`; nothing for a column that codes no component.
+    pub(crate) coding: Option<String>,
+}
+
+/// A sign with its cells, an empty one for a field without value.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Form {
+    /// The gloss.
+    pub(crate) gloss: String,
+    /// The cells, in the order of the fields.
+    pub(crate) cells: Vec<String>,
+    /// The line of the table.
+    pub(crate) line: Option<u64>,
+}
+
+impl Forms {
+    /// Returns signs with their codings in some fields of queries.
+    pub(crate) fn of(
+        codings: &[(String, BTreeMap<String, String>)],
+        fields: Vec<String>,
+        source: FormSource,
+    ) -> Self {
+        let rows = codings.iter().map(|(gloss, coding)| {
+            let cells = fields.iter().map(|field| coding.get(field).cloned());
+            Form {
+                gloss: gloss.clone(),
+                cells: cells.map(Option::unwrap_or_default).collect(),
+                line: None,
+            }
+        });
+        Self {
+            rows: rows.collect(),
+            fields: fields
+                .into_iter()
+                .map(|name| FormField {
+                    coding: Some(name.clone()),
+                    name,
+                })
+                .collect(),
+            source,
+        }
+    }
+}
+
+impl Form {
+    /// Returns whether every field has a value.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.cells.iter().all(|cell| !cell.is_empty())
+    }
+}
+
+/// Returns the fields that are meant: those of a set if its name stands alone.
+pub(crate) fn named_fields(fields: &[String]) -> Vec<String> {
+    let named = match fields {
+        [one] => FIELD_SETS.iter().find(|(name, _)| name == one),
+        _ => None,
+    };
+    match named {
+        Some((_, titles)) => titles.iter().map(|title| (*title).to_owned()).collect(),
+        None => fields.to_vec(),
+    }
+}
+
+impl Corpus {
+    /// Returns the forms of signs by some fields: the rows of the imported tables that have all of them as columns,
+    /// otherwise the codings of citation forms by fields of queries; without fields by all that are coded. With `among`,
+    /// of these tokens alone.
+    ///
+    /// # Errors
+    /// [`Error::Wrong`] if a field does not exist; [`Error::Stopped`].
+    pub(crate) fn forms(
+        &self,
+        fields: &[String],
+        among: Option<&[TokenRow]>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Forms> {
+        match of_tables(self.store.read(), fields, among)? {
+            Some(forms) => Ok(forms),
+            None => of_codings(self, fields, among, progress),
+        }
+    }
+
+    /// Returns the columns that code components in the first imported table that has all of `titles` as columns, and
+    /// these; nothing if no table has them.
+    pub(crate) fn columns_with(&self, titles: &[String]) -> Result<Option<Vec<String>>> {
+        let connection = self.store.read();
+        for file in recordings::lexicon_files(connection)? {
+            let Some(table) = table_of(connection, &file)? else {
+                continue;
+            };
+            let places = titles.iter().map(|title| place(&table, title));
+            let Some(named) = places.collect::<Option<Vec<usize>>>() else {
+                continue;
+            };
+            let columns = table.columns.iter().enumerate();
+            let kept = columns.filter(|(at, column)| {
+                matches!(column.meaning, Meaning::Coding { .. }) || named.contains(at)
+            });
+            return Ok(Some(kept.map(|(_, it)| it.title.clone()).collect()));
+        }
+        Ok(None)
+    }
+}
+
+/// Returns an imported table; nothing if it cannot be read.
+fn table_of(connection: &Connection, file: &SourceFileRow) -> Result<Option<Lexicon>> {
+    let bytes = recordings::source_bytes(connection, file.id)?;
+    let read = |bytes: Vec<u8>| lexicon::read(&bytes, &Default::default()).ok();
+    Ok(bytes.and_then(read).map(|(table, _)| table))
+}
+
+/// Returns the place of a column by its title; case and accents do not count.
+fn place(table: &Lexicon, title: &str) -> Option<usize> {
+    let wanted = fold(title.trim());
+    let mut titles = table.columns.iter();
+    titles.position(|column| fold(column.title.trim()) == wanted)
+}
+
+/// An entry of a table that the corpus still has.
+struct StandingEntry {
+    gloss: String,
+    token: i64,
+    cells: Map<String, Value>,
+}
+
+/// The entries of one table that the corpus still has, by the line of the table.
+type Standing = BTreeMap<u64, Vec<StandingEntry>>;
+
+/// Returns the entries that the corpus has of each table, by the table's path, or its name if the path is not known.
+fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
+    let mut tables: BTreeMap<String, Standing> = BTreeMap::new();
+    for token in signs::lexicon_entries(connection)? {
+        let source = token.source.as_deref().unwrap_or_default();
+        let Ok(mut source) = serde_json::from_str::<Value>(source) else {
+            continue;
+        };
+        let place = source["path"].as_str().or(source["file"].as_str());
+        let (Some(place), Some(line)) = (place.map(str::to_owned), source["line"].as_u64()) else {
+            continue;
+        };
+        if let Value::Object(cells) = source["cells"].take() {
+            let lines = tables.entry(place).or_default();
+            let entries = lines.entry(line).or_default();
+            entries.push(StandingEntry {
+                gloss: token.gloss,
+                token: token.id,
+                cells,
+            });
+        }
+    }
+    Ok(tables)
+}
+
+/// Returns what the corpus has now of a row of a table; nothing if the corpus no longer has its sign.
+fn standing_entry<'a>(
+    table: &'a Standing,
+    columns: &[Column],
+    row: &LexiconEntry,
+) -> Option<&'a StandingEntry> {
+    let entries = table.get(&row.line)?;
+    let same_cells = |cells: &Map<String, Value>| {
+        let filled = columns.iter().zip(&row.cells).filter(|(column, cell)| {
+            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
+        });
+        let own: BTreeMap<&str, &str> = filled
+            .map(|(column, cell)| (column.title.as_str(), cell.as_str()))
+            .collect();
+        own.len() == cells.len()
+            && own
+                .iter()
+                .all(|(title, cell)| cells.get(*title).and_then(Value::as_str) == Some(*cell))
+    };
+    let named = entries.iter().find(|it| it.gloss == row.gloss);
+    // A sign that was renamed in the corpus is known by its cells.
+    named.or_else(|| entries.iter().find(|it| same_cells(&it.cells)))
+}
+
+/// Returns the rows of the imported tables that have all the columns, if there are such tables: those of the newest
+/// version of each table whose signs the corpus still has.
+fn of_tables(
+    connection: &Connection,
+    fields: &[String],
+    among: Option<&[TokenRow]>,
+) -> Result<Option<Forms>> {
+    if fields.is_empty() {
+        return Ok(None);
+    }
+    let mut rows = Vec::new();
+    let mut known: BTreeSet<String> = BTreeSet::new();
+    let mut columns: Option<Vec<FormField>> = None;
+    let tables = standing(connection)?;
+    let among: Option<BTreeSet<i64>> = among.map(|it| it.iter().map(|token| token.id).collect());
+    for file in recordings::lexicon_files(connection)? {
+        let Some(table) = table_of(connection, &file)? else {
+            continue;
+        };
+        known.extend(table.columns.iter().map(|it| it.title.clone()));
+        let places = fields.iter().map(|field| place(&table, field));
+        let Some(places) = places.collect::<Option<Vec<usize>>>() else {
+            continue;
+        };
+        let named = fields.iter().zip(&places).map(|(name, at)| FormField {
+            name: name.clone(),
+            coding: coding_of_column(&table.columns[*at]),
+        });
+        columns.get_or_insert_with(|| named.collect());
+        let place = file.path.as_ref().unwrap_or(&file.name);
+        let Some(entries) = tables.get(place) else {
+            continue;
+        };
+        rows.extend(table.entries.iter().filter_map(|entry| {
+            let standing = standing_entry(entries, &table.columns, entry)?;
+            let among = among.as_ref();
+            among
+                .is_none_or(|it| it.contains(&standing.token))
+                .then(|| Form {
+                    gloss: standing.gloss.clone(),
+                    cells: (places.iter())
+                        .map(|at| entry.cells[*at].trim().to_owned())
+                        .collect(),
+                    line: Some(entry.line),
+                })
+        }));
+    }
+    if let Some(fields) = columns {
+        let source = FormSource::Columns;
+        return Ok(Some(Forms {
+            fields,
+            rows,
+            source,
+        }));
+    }
+    let title = |field: &&String| field.parse::<Field>().is_err();
+    match fields.iter().find(title) {
+        None => Ok(None),
+        Some(field) => {
+            let near = did_you_mean(nearest(field, known.iter().map(String::as_str)));
+            let titles: Vec<&str> = known.iter().map(String::as_str).collect();
+            let text = format!("no imported table has a column {field:?} with the others{near}");
+            Err(Error::wrong(text).at(field).advise(format!(
+                "name fields of queries such as dominant.configuration, or columns of one table: {}",
+                titles.join(", ")
+            )))
+        }
+    }
+}
+
+/// Returns the field of queries that a column codes.
+fn coding_of_column(column: &Column) -> Option<String> {
+    let Meaning::Coding {
+        hand,
+        component,
+        feature,
+        phase: None,
+    } = &column.meaning
+    else {
+        return None;
+    };
+    let field = Field {
+        hand: hand.and_then(Hands::one),
+        component: *component,
+        feature: feature.clone(),
+        phase: None,
+    };
+    Some(suggest::coding_name(&field))
+}
+
+/// Returns the codings of the citation forms, or of these tokens, by query field.
+fn of_codings(
+    corpus: &Corpus,
+    fields: &[String],
+    among: Option<&[TokenRow]>,
+    progress: &mut Progress<'_>,
+) -> Result<Forms> {
+    let (tokens, source) = match among {
+        Some(tokens) => (tokens.to_vec(), FormSource::Tokens),
+        None => (
+            signs::citations(corpus.store.read())?,
+            FormSource::Citations,
+        ),
+    };
+    let all = tokens.len() as u64;
+    let mut codings = Vec::new();
+    for (done, token) in tokens.into_iter().enumerate() {
+        if done % STEP == 0 {
+            progress.report(Step {
+                task: "codings",
+                done: done as u64,
+                total: Some(all),
+                unit: Unit::Items,
+            })?;
+        }
+        let coding = corpus.coding_of(&token)?;
+        if !coding.is_empty() {
+            codings.push((token.gloss, coding));
+        }
+    }
+    let coded: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
+    let wanted = |field: &String| -> Result<String> {
+        let written = match field.parse::<Field>() {
+            Ok(field) => suggest::coding_name(&field),
+            Err(error) => return Err(Error::wrong(error.to_string()).at(field)),
+        };
+        if coded.contains(&written) {
+            return Ok(written);
+        }
+        let names: Vec<&str> = coded.iter().map(|it| it.as_str()).collect();
+        let text = match source {
+            FormSource::Tokens => format!("no token found is coded for {field}"),
+            _ => format!("no citation form is coded for {field}"),
+        };
+        Err(Error::wrong(text)
+            .at(field)
+            .advise(format!("coded are: {}", names.join(", "))))
+    };
+    let keys: Vec<String> = match fields {
+        [] => coded.iter().map(|it| (*it).clone()).collect(),
+        some => some.iter().map(wanted).collect::<Result<_>>()?,
+    };
+    Ok(Forms::of(&codings, keys, source))
+}
+
+/// Returns the cells as numbers that are equal if the texts are equal, and the text of each number; the empty cell is 0.
+pub(crate) fn numbered(rows: &[Form]) -> (Vec<Vec<u32>>, Vec<&str>) {
+    let mut known: BTreeMap<&str, u32> = BTreeMap::from([("", 0)]);
+    let mut texts = vec![""];
+    let mut number = |text| {
+        let next = u32::try_from(texts.len()).unwrap_or(u32::MAX);
+        *known.entry(text).or_insert_with(|| {
+            texts.push(text);
+            next
+        })
+    };
+    let numbers = rows
+        .iter()
+        .map(|row| row.cells.iter().map(|cell| number(cell)).collect())
+        .collect();
+    (numbers, texts)
+}
