@@ -149,7 +149,7 @@ impl Means {
             }
             let near = did_you_mean(nearest(name, known));
             let message = format!(
-                "the plan does not ask participants for {:?}{near}",
+                "no question about participants is called {:?}{near}",
                 short(name)
             );
             return Err(Error::wrong(message));
@@ -244,7 +244,7 @@ pub(super) fn read(
         let Some(at) = at else {
             let near = nearest(&column.title, titles.iter().map(String::as_str));
             let message = format!(
-                "the table has no column {:?}, which the map names{}",
+                "the map names a column that the table does not have: {:?}{}",
                 short(&column.title),
                 did_you_mean(near)
             );

@@ -215,12 +215,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "ajoutez une ligne avec `participant` sous `means`",
     ),
     (
-        "the plan does not ask participants for {name}",
-        "le plan ne demande pas {name} aux participants",
+        "no question about participants is called {name}",
+        "aucune question sur les participants ne s’appelle {name}",
     ),
     (
-        "the plan does not ask participants for {name}; did you mean {near}?",
-        "le plan ne demande pas {name} aux participants ; vouliez-vous dire {near} ?",
+        "no question about participants is called {name}; did you mean {near}?",
+        "aucune question sur les participants ne s’appelle {name} ; vouliez-vous dire {near} ?",
     ),
     (
         "{word} is no meaning of a column",
@@ -251,12 +251,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "écrivez les codes et leurs valeurs comme `A1=left; A2=right`",
     ),
     (
-        "the table has no column {name}, which the map names",
-        "le tableau n’a pas de colonne {name}, que la description nomme",
+        "the map names a column that the table does not have: {name}",
+        "la description nomme une colonne que le tableau n’a pas : {name}",
     ),
     (
-        "the table has no column {name}, which the map names; did you mean {near}?",
-        "le tableau n’a pas de colonne {name}, que la description nomme ; vouliez-vous dire {near} ?",
+        "the map names a column that the table does not have: {name}; did you mean {near}?",
+        "la description nomme une colonne que le tableau n’a pas : {name} ; vouliez-vous dire {near} ?",
     ),
     (
         "{text} in the column {name} is no answer to {question}; it was left out",

@@ -169,7 +169,7 @@ fn maps_that_fit_neither_plan_nor_table_are_refused_with_their_line() {
     let error = read("id,r1,p1,r2,p3\n", "a.csv", by, &mut findings).err();
     let shown = error.expect("refused").to_string();
     assert!(
-        shown.contains("no column \"p2\", which the map names; did you mean"),
+        shown.contains("does not have: \"p2\"; did you mean"),
         "{shown}"
     );
 }
