@@ -334,11 +334,7 @@ pub(crate) const CASES: &[Case] = &[
             "/between/cells/0/expected",
         ],
     ),
-    (
-        "stats @c --of dominant.configuration --to @d/stats.csv",
-        1,
-        ERROR,
-    ),
+    ("stats @c --of dominant.configuration --to @c", 1, ERROR),
     ("stats @c --fields nosuch", 1, ERROR),
     ("stats @c --of nosuch", 1, ERROR),
     ("stats @c 'gloss=('", 1, ERROR),

@@ -3,6 +3,8 @@
 use std::collections::BTreeMap;
 use std::io::Write;
 
+use chereme_sign::Remedy;
+
 use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant};
 use super::plan::{Plan, Role};
 use super::rows::{Table, table};
@@ -147,9 +149,9 @@ pub(super) fn read(text: &str, file: &str) -> Result<(Vec<Listed>, Vec<String>)>
     ] {
         if column(needed).is_none() {
             let error = Error::wrong(format!("the table has no column {needed:?}")).at(file);
-            return Err(error.advise(
-                "a table of answers has one answer in each row, under the names of the answers' JSON",
-            ));
+            return Err(error.advise(Remedy::command(
+                "a table of answers has one answer in each row, under the names of the answers' JSON; one with a participant in each row needs --columns",
+            )));
         }
     }
     let known = |title: &String| {

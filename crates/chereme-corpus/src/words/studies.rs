@@ -311,8 +311,8 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "le tableau a plus de {n} lignes",
     ),
     (
-        "a table of answers has one answer in each row, under the names of the answers' JSON",
-        "un tableau de réponses a une réponse par ligne, sous les noms du JSON des réponses",
+        "a table of answers has one answer in each row, under the names of the answers' JSON; one with a participant in each row needs --columns",
+        "un tableau de réponses a une réponse par ligne, sous les noms du JSON des réponses ; un tableau avec un participant par ligne demande --columns",
     ),
     (
         "there are no files of answers",
