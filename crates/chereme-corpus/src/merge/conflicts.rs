@@ -241,6 +241,44 @@ pub(crate) fn waiting(connection: &Connection) -> Result<Vec<CorpusConflict>> {
     Ok(all)
 }
 
+/// A signer, recording or tier on which two corpora disagree.
+pub(crate) struct Dispute {
+    pub(crate) table: &'static str,
+    /// The row here.
+    pub(crate) id: i64,
+    /// The row of the recording that a tier belongs to.
+    pub(crate) recording: Option<i64>,
+    /// The row as it is here now.
+    pub(crate) mine: Image,
+    /// The row of the other corpus; empty if it was removed there.
+    pub(crate) theirs: Image,
+}
+
+/// Returns the signers, recordings and tiers on which nobody has decided yet.
+pub(crate) fn disputes(connection: &Connection) -> Result<Vec<Dispute>> {
+    let side = Side::now(connection);
+    let mut all = Vec::new();
+    for (_, text) in db::notes(connection, PREFIX)? {
+        let Some(open) = read(&text).filter(|it| it.decided.is_none()) else {
+            continue;
+        };
+        let tables = ["signer", "recording", "tier"];
+        let table = tables.into_iter().find(|it| *it == open.table);
+        let Some((table, id)) = table.zip(side.id(&open.table, &open.uid)?) else {
+            continue;
+        };
+        let mine = side.row(table, &open.uid)?.unwrap_or_default();
+        all.push(Dispute {
+            recording: recording(connection, &side, (table, &open.uid), &mine)?,
+            theirs: open.theirs.unwrap_or_default(),
+            table,
+            id,
+            mine,
+        });
+    }
+    Ok(all)
+}
+
 fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
     let text = |column: &str| own.get(column).and_then(Value::as_str).unwrap_or_default();
     if table == "annotation" {
