@@ -1,5 +1,3 @@
-use std::fs;
-
 use super::*;
 use crate::consent::tests::corpus;
 use crate::{Audience, ConsentChange, SignChange, unheard};
@@ -74,6 +72,8 @@ fn nothing_is_published_that_nobody_agreed_to() {
     let remedy = error.remedy().map(|it| it.text().to_owned());
     assert!(remedy.is_some_and(|it| it.contains("chereme consent") || it.contains("--terms")));
     assert!(!to.exists());
+    let error = publish(&mut corpus, folder.path(), Some("CC0")).expect_err("the corpus is in it");
+    assert!(error.to_string().contains("the corpus itself"), "{error}");
     // Entries of the lexicon show nobody; their terms are enough.
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert!(done.signs > 3 && done.moving == 0 && done.signers == 0);
