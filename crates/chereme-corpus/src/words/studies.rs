@@ -187,10 +187,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "les colonnes autres que item, condition, clip, role, part et answer sont des mesures de l’extrait",
     ),
     (
-        "the table has no column {name}",
-        "le tableau n’a pas de colonne {name}",
-    ),
-    (
         "a map of columns has no column {name}",
         "une description de colonnes n’a pas de colonne {name}",
     ),
@@ -215,12 +211,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "ajoutez une ligne avec `participant` sous `means`",
     ),
     (
-        "the plan does not ask participants for {name}",
-        "le plan ne demande pas {name} aux participants",
-    ),
-    (
         "the plan does not ask participants for {name}; did you mean {near}?",
         "le plan ne demande pas {name} aux participants ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "the plan does not ask participants for {name}",
+        "le plan ne demande pas {name} aux participants",
     ),
     (
         "{word} is no meaning of a column",
@@ -229,10 +225,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
     (
         "the meanings are participant, language, started_day, finished, profile.NAME and consent.NAME",
         "les sens sont participant, language, started_day, finished, profile.NOM et consent.NOM",
-    ),
-    (
-        "the roles are training, main and check",
-        "les rôles sont training, main et check",
     ),
     (
         "`chereme study show CORPUS NAME` lists the trials",
@@ -251,12 +243,16 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "écrivez les codes et leurs valeurs comme `A1=left; A2=right`",
     ),
     (
+        "the table has no column {name}, which the map names; did you mean {near}?",
+        "le tableau n’a pas de colonne {name}, que la description nomme ; vouliez-vous dire {near} ?",
+    ),
+    (
         "the table has no column {name}, which the map names",
         "le tableau n’a pas de colonne {name}, que la description nomme",
     ),
     (
-        "the table has no column {name}, which the map names; did you mean {near}?",
-        "le tableau n’a pas de colonne {name}, que la description nomme ; vouliez-vous dire {near} ?",
+        "the table has no column {name}",
+        "le tableau n’a pas de colonne {name}",
     ),
     (
         "{text} in the column {name} is no answer to {question}; it was left out",
