@@ -208,6 +208,9 @@ fn the_stricter_of_two_copies_holds_until_somebody_decides() {
         say(&mut mine, of, &form);
         say(&mut theirs, of, &all(Audience::Nobody));
         assert_eq!(merge(&mut mine, &path), 1);
+        let conflicts = mine.conflicts(false).expect("read");
+        let refusal = conflicts[0].theirs.as_ref().map(|it| it.text.as_str());
+        assert!(refusal.is_some_and(|it| it.contains("movement nobody, ")));
         assert_eq!(
             verdicts(&mine),
             [undecided.clone(), undecided.clone()],

@@ -279,6 +279,17 @@ pub(crate) fn disputes(connection: &Connection) -> Result<Vec<Dispute>> {
     Ok(all)
 }
 
+/// Returns a consent as words, such as `movement public, day 2026-11-27`.
+fn in_words(json: &str) -> String {
+    let Ok(all) = serde_json::from_str::<Image>(json) else {
+        return json.to_owned();
+    };
+    let said = all
+        .iter()
+        .filter_map(|(key, value)| Some(format!("{key} {}", value.as_str()?)));
+    said.collect::<Vec<String>>().join(", ")
+}
+
 fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
     let text = |column: &str| own.get(column).and_then(Value::as_str).unwrap_or_default();
     if table == "annotation" {
@@ -295,7 +306,8 @@ fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
     }
     let differs =
         |column: &str, value: &Value| other.is_none_or(|it| it.get(column) != Some(value));
-    let shown = |value: &Value| match value {
+    let shown = |column: &str, value: &Value| match value {
+        Value::String(json) if column == "consent" => in_words(json),
         Value::String(text) => text.clone(),
         other => other.to_string(),
     };
@@ -306,7 +318,7 @@ fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
         .filter(|(column, _)| {
             !silent.contains(&column.as_str()) && refers_to(table, column).is_none()
         })
-        .map(|(column, value)| format!("{column} {}", shown(value)))
+        .map(|(column, value)| format!("{column} {}", shown(column, value)))
         .collect();
     Candidate {
         start_us: None,

@@ -177,7 +177,7 @@ impl Corpus {
     ) -> Result<(usize, usize)> {
         let inventories = inventories::load(self.store.read())?;
         let site = Site {
-            title: options.title.as_deref().unwrap_or("Signs"),
+            title: options.title.as_deref().unwrap_or("Signs · Signes"),
             contact: options.contact.as_deref(),
             inventories: &inventories,
         };
