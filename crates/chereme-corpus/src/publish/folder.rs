@@ -48,7 +48,7 @@ impl Folder {
                 fs::remove_dir_all(left).map_err(|error| Error::file(left, error))?;
             }
         }
-        fs::create_dir_all(&part).map_err(|error| Error::file(&part, error))?;
+        fs::create_dir_all(&part).map_err(fault)?;
         Ok(Self {
             to: to.to_owned(),
             part,
