@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress, SearchOptions, unheard,
+    Audience, Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress,
+    SearchOptions, unheard,
 };
 use chereme_tests::{files, repository};
 use rusqlite::Connection;
@@ -97,15 +98,23 @@ fn corpora_of_earlier_versions_open_without_loss() {
             assert_eq!(study.plan.trials.len(), 2, "version {version}");
             assert_eq!(right, [None, Some(true)], "version {version}");
         }
+        let consents = usize::from(version >= 11);
+        if consents > 0 {
+            let stored = corpus.consents().expect("consents");
+            let own = stored.iter().find(|it| it.of == "recording");
+            let movement = own.and_then(|it| it.consent.movement);
+            assert_eq!(movement, Some(Audience::Research), "version {version}");
+        }
+        let more = kept + tracks + studies + consents;
         let operations = corpus.log(usize::MAX).expect("log").len();
-        assert_eq!(operations, 6 + kept + tracks + studies, "version {version}");
+        assert_eq!(operations, 6 + more, "version {version}");
         corpus.redo().expect("what was undone is done again");
         corpus.undo().expect("and taken back");
         corpus.undo().expect("the made sign is taken back");
-        for _ in 0..kept + tracks + studies {
+        for _ in 0..more {
             corpus
                 .undo()
-                .expect("kept search, tracks and study are taken back");
+                .expect("kept search, tracks, study and consent are taken back");
         }
         corpus.undo().expect("the import is taken back");
         assert!(corpus.undo().is_err(), "version {version}");

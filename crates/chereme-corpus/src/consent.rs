@@ -5,6 +5,7 @@ use std::fmt;
 use std::str::FromStr;
 
 use chereme_sign::Remedy;
+use chereme_sign::text::fold;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
@@ -13,6 +14,7 @@ use crate::address::{self, Address};
 use crate::db::recordings::RecordingRow;
 use crate::db::{consents, edits, recordings};
 use crate::error::{Error, Result};
+use crate::merge;
 
 /// The people who may see something, from the fewest to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -336,16 +338,20 @@ pub enum Withheld {
     NoTerms,
     /// The terms forbid that something is made from it.
     NoDerivatives,
-    /// A recording that it was made from is no longer there.
+    /// Two copies of the corpus disagree about it, and nobody has decided.
+    Undecided,
+    /// A recording that it was made from is not known, or no longer there.
     InputGone,
 }
 
 /// What may be published of a corpus, read at one moment.
 pub(crate) struct Permissions {
     recordings: BTreeMap<i64, RecordingRow>,
-    /// The consent of each recording, by kind: the narrowest of those that apply; `None` if one of them is unknown.
-    agreed: BTreeMap<i64, [Option<Audience>; 3]>,
-    /// The recordings that a generated one takes movement from; `None` if one of them is gone.
+    /// Whether everybody may see a recording, by kind: the narrowest of the consents that apply.
+    agreed: BTreeMap<i64, [std::result::Result<(), Withheld>; 3]>,
+    /// What the consents of recordings themselves refuse to everybody.
+    refused: BTreeSet<(i64, ConsentKind)>,
+    /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
     inputs: BTreeMap<i64, Option<BTreeSet<i64>>>,
     /// Recordings in which a person moves or a signer is named.
     personal: BTreeSet<i64>,
@@ -379,33 +385,61 @@ impl Permissions {
                 None => *all = None,
             }
         }
-        let by_name: BTreeMap<&str, &Consent> = signers
-            .values()
-            .map(|(name, consent)| (name.as_str(), consent))
-            .collect();
+        let doubts = doubts(connection)?;
+        // A participant written in other letters is the same person.
+        let mut by_name: BTreeMap<String, Vec<i64>> = BTreeMap::new();
+        for (id, (name, _)) in &signers {
+            by_name.entry(fold(name.trim())).or_default().push(*id);
+        }
+        let mut refused = BTreeSet::new();
         let (mut agreed, mut personal) = (BTreeMap::new(), BTreeSet::new());
         let mut all = BTreeMap::new();
         for row in recordings::recordings(connection)? {
-            let mut people: Vec<Option<&Consent>> = Vec::new();
-            let signer = row.signer_id.and_then(|id| signers.get(&id));
-            people.extend(signer.map(|(_, consent)| Some(consent)));
+            let mut people: Vec<Option<i64>> = row.signer_id.map(Some).into_iter().collect();
             for name in named.get(&row.id).into_iter().flatten() {
-                people.push(by_name.get(name.as_str()).copied());
+                match by_name.get(&fold(name)) {
+                    Some(known) => people.extend(known.iter().copied().map(Some)),
+                    None => people.push(None),
+                }
             }
-            let captured = row.origin == crate::Origin::Captured;
-            if captured || !people.is_empty() {
+            let shows = row.origin == crate::Origin::Captured || !people.is_empty();
+            if shows {
                 personal.insert(row.id);
             }
+            if row.origin == crate::Origin::Made {
+                // Without a recipe nobody knows whose movement it is.
+                inputs.entry(row.id).or_insert(None);
+            }
             let consent = own.get(&row.id);
+            let each: Vec<Option<&Consent>> = people
+                .iter()
+                .map(|it| it.and_then(|id| signers.get(&id)).map(|(_, it)| it))
+                .collect();
             agreed.insert(
                 row.id,
-                ConsentKind::ALL.map(|kind| narrowest(consent, &people, kind)),
+                ConsentKind::ALL.map(|kind| {
+                    let own = consent.and_then(|it| it.of(kind));
+                    if own.is_some_and(|it| it < Audience::Public) {
+                        refused.insert((row.id, kind));
+                    }
+                    let doubted = doubts.contains(&("recording", row.id, kind));
+                    let mut people = people.iter().flatten();
+                    let doubted =
+                        doubted || people.any(|it| doubts.contains(&("signer", *it, kind)));
+                    match narrowest(consent, &each, kind) {
+                        Some(Audience::Nobody | Audience::Research) => Err(Withheld::NotPublic),
+                        None if shows => Err(Withheld::ConsentUnknown),
+                        _ if doubted => Err(Withheld::Undecided),
+                        Some(Audience::Public) | None => Ok(()),
+                    }
+                }),
             );
             all.insert(row.id, row);
         }
         Ok(Self {
             recordings: all,
             agreed,
+            refused,
             inputs,
             personal,
             terms: terms.map(str::to_owned),
@@ -437,20 +471,17 @@ impl Permissions {
             let licence = licence.filter(|it| !it.is_empty());
             let personal = self.personal.contains(&at);
             let from_others = inputs.is_some_and(|it| !it.is_empty());
+            if self.refused.contains(&(at, kind)) {
+                return Err(Withheld::NotPublic);
+            }
             let kind = if from_others {
                 ConsentKind::Derived
             } else {
                 kind
             };
-            if personal {
-                let index = ConsentKind::ALL.iter().position(|it| *it == kind);
-                let agreed = self.agreed.get(&at).zip(index);
-                match agreed.and_then(|(all, index)| all[index]) {
-                    Some(Audience::Public) => {}
-                    Some(_) => return Err(Withheld::NotPublic),
-                    None => return Err(Withheld::ConsentUnknown),
-                }
-            }
+            let index = ConsentKind::ALL.iter().position(|it| *it == kind);
+            let agreed = self.agreed.get(&at).zip(index);
+            agreed.map_or(Err(Withheld::ConsentUnknown), |(all, index)| all[index])?;
             match licence {
                 Some(it) => {
                     terms.insert(it.to_owned());
@@ -483,6 +514,39 @@ impl Permissions {
                 .then_some((false, recording)),
         }
     }
+}
+
+/// Returns the consents that may not stand: another copy of the corpus allows less, and nobody has decided.
+fn doubts(connection: &Connection) -> Result<BTreeSet<(&'static str, i64, ConsentKind)>> {
+    let mut doubts = BTreeSet::new();
+    for dispute in merge::disputes(connection)? {
+        let differs = |column: &str| dispute.mine.get(column) != dispute.theirs.get(column);
+        let other = dispute.theirs.get("consent").and_then(|it| it.as_str());
+        // What cannot be read allows nothing.
+        let other = Consent::read(other, dispute.table).unwrap_or_default();
+        for kind in ConsentKind::ALL {
+            let whole = match dispute.table {
+                _ if dispute.theirs.is_empty() => true,
+                "signer" => false,
+                "tier" => differs("participant"),
+                _ => ["signer_id", "origin", "licence"].into_iter().any(differs),
+            };
+            let less = differs("consent") && other.of(kind) != Some(Audience::Public);
+            match dispute.table {
+                "signer" if whole || less => drop(doubts.insert(("signer", dispute.id, kind))),
+                "recording" if whole || less => {
+                    doubts.insert(("recording", dispute.id, kind));
+                }
+                "tier" if whole => doubts.extend(
+                    dispute
+                        .recording
+                        .map(|recording| ("recording", recording, kind)),
+                ),
+                _ => {}
+            }
+        }
+    }
+    Ok(doubts)
 }
 
 /// Returns the narrowest consent of a recording and its people; `None` if a person's is unknown and the recording has
@@ -528,7 +592,12 @@ pub(crate) fn remedy(reason: Withheld) -> Remedy {
             "state the terms of recordings with `chereme consent CORPUS signer:NAME --licence TERMS`, those of entries that show nobody with --terms TERMS",
         ),
         Withheld::NoDerivatives => "a recording that they were made from may not be changed".into(),
-        Withheld::InputGone => "a recording that they were made from was deleted".into(),
+        Withheld::Undecided => Remedy::command(
+            "two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided",
+        ),
+        Withheld::InputGone => {
+            "a recording that they were made from is not known, or was deleted".into()
+        }
     }
 }
 

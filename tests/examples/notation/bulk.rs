@@ -132,10 +132,7 @@ impl Hand {
     pub(crate) fn part(&self, named: Option<&HandSite>) -> Option<DVec3> {
         let digits = named.map(|site| &site.digits);
         let among = |digit: &Digit| digits.is_some_and(|digits| digits.contains(*digit));
-        let digit = Digit::ALL
-            .iter()
-            .position(|digit| among(digit))
-            .unwrap_or(1);
+        let digit = Digit::ALL.iter().position(among).unwrap_or(1);
         Some(match named.and_then(|site| site.at) {
             Some(HandLocation::MidJoint) => self.bone(digit, 2)?.ends[0],
             Some(HandLocation::Base) => self.bone(digit, 1)?.ends[0],

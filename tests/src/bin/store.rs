@@ -9,7 +9,7 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use chereme_corpus::{Corpus, KeptSearch, Name, NewTrack, Track};
+use chereme_corpus::{Address, Audience, ConsentChange, Corpus, KeptSearch, Name, NewTrack, Track};
 use chereme_motion::column::{Column, Gaps};
 use chereme_motion::{Convention, Curve, Curves, Marker, Markers, Rate, Space, Times};
 use chereme_tests::{repository, study, workers};
@@ -58,7 +58,7 @@ fn tracks() -> Result<Vec<NewTrack>, Box<dyn Error>> {
     ])
 }
 
-/// Makes the corpus: imports, tracks, a generated sign, something undone and something done again.
+/// Makes the corpus: imports, tracks, a study, a consent, a generated sign, something undone and something done again.
 fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     let desk = tempfile::tempdir()?;
     let path = workers::small_corpus(desk.path(), "store.chereme")?;
@@ -69,6 +69,12 @@ fn write(folder: &Path) -> Result<PathBuf, Box<dyn Error>> {
     }])?;
     corpus.add_tracks(&Name::Text("bowl and cat".to_owned()), &tracks()?)?;
     study::small_study(&mut corpus, desk.path())?;
+    let change = ConsentChange {
+        movement: Some(Some(Audience::Research)),
+        ..ConsentChange::default()
+    };
+    let recording = Address::Recording(Name::Text("bowl and cat".to_owned()));
+    corpus.change_consent(&[recording], &change)?;
     corpus.recombine("BOL | reverse", "LOB")?;
     corpus.undo()?;
     corpus.redo()?;

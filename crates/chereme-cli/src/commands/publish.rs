@@ -99,7 +99,8 @@ fn print_left_out(it: &LeftOut, output: &mut Output) -> Result<()> {
         Withheld::NotPublic => "the signers did not agree to it",
         Withheld::NoTerms => "no terms of use are stated",
         Withheld::NoDerivatives => "the terms of a source forbid changes",
-        Withheld::InputGone => "a source is no longer there",
+        Withheld::Undecided => "two copies of the corpus disagree",
+        Withheld::InputGone => "a source is not known, or no longer there",
     });
     let mut first = it.first.join(", ");
     if it.signs > it.first.len() {
@@ -189,7 +190,14 @@ pub(super) const WORDS: Words = Words {
             "the terms of a source forbid changes",
             "les conditions d’une source interdisent les modifications",
         ),
-        ("a source is no longer there", "une source n’existe plus"),
+        (
+            "two copies of the corpus disagree",
+            "deux copies du corpus ne sont pas d’accord",
+        ),
+        (
+            "a source is not known, or no longer there",
+            "une source n’est pas connue, ou n’existe plus",
+        ),
     ],
     titles: &[],
 };

@@ -163,6 +163,173 @@ fn the_source_of_a_generated_sign_that_is_gone_holds_it_back() {
     assert_eq!(verdict, Err(Withheld::InputGone));
 }
 
+/// Returns two copies of a corpus whose signer agreed to everything, and the path of the second.
+fn copies(folder: &std::path::Path) -> (Corpus, Corpus, PathBuf) {
+    let mut mine = corpus(folder);
+    let change = ConsentChange {
+        licence: Some("CC0".into()),
+        ..all(Audience::Public)
+    };
+    mine.change_consent(&[address("signer:Ada")], &change)
+        .expect("changed");
+    let path = folder.join("b.chereme");
+    drop(mine);
+    std::fs::copy(folder.join("a.chereme"), &path).expect("copied");
+    let open = |path: &std::path::Path| Corpus::open(path, "A").expect("opened");
+    (open(&folder.join("a.chereme")), open(&path), path)
+}
+
+fn say(corpus: &mut Corpus, of: &str, change: &ConsentChange) {
+    corpus
+        .change_consent(&[address(of)], change)
+        .expect("changed");
+}
+
+fn merge(corpus: &mut Corpus, other: &std::path::Path) -> usize {
+    let report = corpus.merge(other, None, &mut Progress::new(&mut unheard));
+    report.expect("merged").conflicts.len()
+}
+
+#[test]
+fn the_stricter_of_two_copies_holds_until_somebody_decides() {
+    let terms = Ok(BTreeSet::from(["CC0".to_owned()]));
+    let undecided = Err(Withheld::Undecided);
+    let form = ConsentChange {
+        form: Some(Some("second form".into())),
+        ..ConsentChange::default()
+    };
+    for (of, decision) in [
+        ("signer:Ada", crate::Decision::Mine),
+        ("signer:Ada", crate::Decision::Theirs),
+        ("recording:escargot", crate::Decision::Theirs),
+    ] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (mut mine, mut theirs, path) = copies(folder.path());
+        say(&mut mine, of, &form);
+        say(&mut theirs, of, &all(Audience::Nobody));
+        assert_eq!(merge(&mut mine, &path), 1);
+        let conflicts = mine.conflicts(false).expect("read");
+        let refusal = conflicts[0].theirs.as_ref().map(|it| it.text.as_str());
+        assert!(refusal.is_some_and(|it| it.contains("movement nobody, ")));
+        assert_eq!(
+            verdicts(&mine),
+            [undecided.clone(), undecided.clone()],
+            "{of}"
+        );
+        mine.decide(&[1], decision).expect("decided");
+        let wanted = match decision {
+            crate::Decision::Mine => terms.clone(),
+            _ => Err(Withheld::NotPublic),
+        };
+        assert_eq!(verdicts(&mine), [wanted.clone(), wanted], "{of}");
+    }
+    // A difference that refuses nothing holds nothing back.
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, mut theirs, path) = copies(folder.path());
+    say(&mut mine, "signer:Ada", &form);
+    let day = ConsentChange {
+        day: Some(Some("2026-11-27".into())),
+        ..ConsentChange::default()
+    };
+    say(&mut theirs, "signer:Ada", &day);
+    assert_eq!(merge(&mut mine, &path), 1);
+    assert_eq!(verdicts(&mine), [terms.clone(), terms]);
+}
+
+/// Returns two copies that both gave ESCARGOT to a new signer, and the path of the second.
+fn copies_with_bea(folder: &std::path::Path) -> (Corpus, Corpus, PathBuf) {
+    let (mut mine, mut theirs, path) = copies(folder);
+    for corpus in [&mut mine, &mut theirs] {
+        let change = RecordingChange {
+            signer: Some(Some("Bea".into())),
+            ..RecordingChange::default()
+        };
+        let name = Name::Text("escargot".into());
+        corpus.change_recording(&name, &change).expect("changed");
+    }
+    (mine, theirs, path)
+}
+
+#[test]
+fn a_refusal_of_a_signer_whom_both_copies_created_counts() {
+    let undecided = Err(Withheld::Undecided);
+    let refused = Err(Withheld::NotPublic);
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
+    say(&mut mine, "signer:Bea", &all(Audience::Public));
+    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    assert!(merge(&mut mine, &path) > 0);
+    assert_eq!(verdicts(&mine), [undecided.clone(), undecided]);
+    // Also if she refused only after a merge: here she has another uid.
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
+    say(&mut mine, "signer:Bea", &all(Audience::Public));
+    let public = verdicts(&mine);
+    assert!(public.iter().all(std::result::Result::is_ok), "{public:?}");
+    merge(&mut mine, &path);
+    assert_eq!(verdicts(&mine), public, "nobody asked her there");
+    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    merge(&mut mine, &path);
+    let found = verdicts(&mine);
+    assert!(found.iter().all(std::result::Result::is_err), "{found:?}");
+    // And if only the other copy knows what she agreed to.
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, mut theirs, path) = copies_with_bea(folder.path());
+    say(&mut mine, "recording:escargot", &all(Audience::Public));
+    say(&mut theirs, "signer:Bea", &all(Audience::Nobody));
+    merge(&mut mine, &path);
+    assert_eq!(verdicts(&mine), [refused.clone(), refused]);
+}
+
+#[test]
+fn what_a_generated_sign_itself_refuses_counts_and_unknown_sources_hold_it_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut mine, _, _) = copies(folder.path());
+    let movement = ConsentChange {
+        movement: Some(Some(Audience::Research)),
+        ..ConsentChange::default()
+    };
+    say(&mut mine, "recording:LIMACE", &movement);
+    assert_eq!(verdicts(&mine)[1], Err(Withheld::NotPublic));
+    mine.undo().expect("undone");
+    assert!(verdicts(&mine)[1].is_ok());
+    let change = RecordingChange {
+        origin: Some(Origin::Made),
+        signer: Some(None),
+        ..RecordingChange::default()
+    };
+    let name = Name::Text("escargot".into());
+    mine.change_recording(&name, &change).expect("changed");
+    assert_eq!(verdicts(&mine)[0], Err(Withheld::InputGone));
+}
+
+#[test]
+fn a_participant_in_other_letters_is_the_same_person() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut mine = corpus(folder.path());
+    let change = ConsentChange {
+        licence: Some("CC0".into()),
+        ..all(Audience::Public)
+    };
+    say(&mut mine, "recording:escargot", &change);
+    assert!(verdicts(&mine)[0].is_ok());
+    let alone = RecordingChange {
+        signer: Some(None),
+        ..RecordingChange::default()
+    };
+    let name = Name::Text("escargot".into());
+    mine.change_recording(&name, &alone).expect("changed");
+    say(&mut mine, "signer:Ada", &all(Audience::Nobody));
+    let sql = "UPDATE tier SET participant = 'ADA ' WHERE recording_id =
+               (SELECT id FROM recording WHERE name = 'escargot')";
+    let store = mine.store.operation("test", |connection| {
+        connection.execute(sql, [])?;
+        Ok(((), String::new()))
+    });
+    store.expect("changed");
+    assert_eq!(verdicts(&mine)[0], Err(Withheld::NotPublic));
+}
+
 #[test]
 fn days_are_days() {
     for (text, fits) in [

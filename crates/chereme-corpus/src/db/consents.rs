@@ -71,11 +71,12 @@ pub(crate) fn participants(connection: &Connection) -> Result<Vec<(i64, String)>
 }
 
 /// Returns the inputs of recipes: the generated recording, and the recording that it takes movement from; without one
-/// if the input is an entry of a table, or was deleted. The last is whether a token stands for the input.
+/// if the input is an entry of a table, or was deleted. The last is whether that is known: a token stands for the input,
+/// or the recipe has none.
 pub(crate) fn inputs(connection: &Connection) -> Result<Vec<(i64, Option<i64>, bool)>> {
     let mut statement = connection.prepare_cached(
-        "SELECT p.recording_id, i.recording_id, i.token_id IS NOT NULL
-         FROM recipe_input i JOIN recipe p ON p.id = i.recipe_id ORDER BY p.recording_id, i.id",
+        "SELECT p.recording_id, i.recording_id, i.id IS NULL OR i.token_id IS NOT NULL
+         FROM recipe p LEFT JOIN recipe_input i ON p.id = i.recipe_id ORDER BY p.recording_id, i.id",
     )?;
     let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
     Ok(rows.collect::<rusqlite::Result<_>>()?)

@@ -241,6 +241,55 @@ pub(crate) fn waiting(connection: &Connection) -> Result<Vec<CorpusConflict>> {
     Ok(all)
 }
 
+/// A signer, recording or tier on which two corpora disagree.
+pub(crate) struct Dispute {
+    pub(crate) table: &'static str,
+    /// The row here.
+    pub(crate) id: i64,
+    /// The row of the recording that a tier belongs to.
+    pub(crate) recording: Option<i64>,
+    /// The row as it is here now.
+    pub(crate) mine: Image,
+    /// The row of the other corpus; empty if it was removed there.
+    pub(crate) theirs: Image,
+}
+
+/// Returns the signers, recordings and tiers on which nobody has decided yet.
+pub(crate) fn disputes(connection: &Connection) -> Result<Vec<Dispute>> {
+    let side = Side::now(connection);
+    let mut all = Vec::new();
+    for (_, text) in db::notes(connection, PREFIX)? {
+        let Some(open) = read(&text).filter(|it| it.decided.is_none()) else {
+            continue;
+        };
+        let tables = ["signer", "recording", "tier"];
+        let table = tables.into_iter().find(|it| *it == open.table);
+        let Some((table, id)) = table.zip(side.id(&open.table, &open.uid)?) else {
+            continue;
+        };
+        let mine = side.row(table, &open.uid)?.unwrap_or_default();
+        all.push(Dispute {
+            recording: recording(connection, &side, (table, &open.uid), &mine)?,
+            theirs: open.theirs.unwrap_or_default(),
+            table,
+            id,
+            mine,
+        });
+    }
+    Ok(all)
+}
+
+/// Returns a consent as words, such as `movement public, day 2026-11-27`.
+fn in_words(json: &str) -> String {
+    let Ok(all) = serde_json::from_str::<Image>(json) else {
+        return json.to_owned();
+    };
+    let said = all
+        .iter()
+        .filter_map(|(key, value)| Some(format!("{key} {}", value.as_str()?)));
+    said.collect::<Vec<String>>().join(", ")
+}
+
 fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
     let text = |column: &str| own.get(column).and_then(Value::as_str).unwrap_or_default();
     if table == "annotation" {
@@ -257,7 +306,8 @@ fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
     }
     let differs =
         |column: &str, value: &Value| other.is_none_or(|it| it.get(column) != Some(value));
-    let shown = |value: &Value| match value {
+    let shown = |column: &str, value: &Value| match value {
+        Value::String(json) if column == "consent" => in_words(json),
         Value::String(text) => text.clone(),
         other => other.to_string(),
     };
@@ -268,7 +318,7 @@ fn candidate(table: &str, own: &Image, other: Option<&Image>) -> Candidate {
         .filter(|(column, _)| {
             !silent.contains(&column.as_str()) && refers_to(table, column).is_none()
         })
-        .map(|(column, value)| format!("{column} {}", shown(value)))
+        .map(|(column, value)| format!("{column} {}", shown(column, value)))
         .collect();
     Candidate {
         start_us: None,

@@ -18,7 +18,7 @@ use serde_json::Value;
 
 pub use conflicts::{Candidate, CorpusConflict, Decision};
 use conflicts::{Open, keep};
-pub(crate) use conflicts::{keep_annotation, waiting};
+pub(crate) use conflicts::{disputes, keep_annotation, waiting};
 
 use crate::Corpus;
 use crate::db::merge::{self as db, Image, Key, Side};
@@ -273,6 +273,11 @@ impl Work<'_> {
             }
             Some(mine) => self.change(key, &bases, &mine, &theirs)?,
             None if bases.is_empty() => self.add(key, &theirs, local)?,
+            // A signer that both sides created separately has another uid here, also at the next merge.
+            None if table == "signer" => match db::namesake(self.connection, table, &local)? {
+                Some(there) => self.join(key, &bases, &theirs, there)?,
+                None => self.disagree(key, Some(&theirs))?,
+            },
             None => self.disagree(key, Some(&theirs))?,
         }
         Ok(true)
@@ -381,7 +386,7 @@ impl Work<'_> {
                     ));
                     local.insert("code".into(), Value::from(code));
                 }
-                _ => return self.join(key, theirs, there),
+                _ => return self.join(key, &[], theirs, there),
             }
         }
         if table == "annotation" {
@@ -467,7 +472,7 @@ impl Work<'_> {
     }
 
     /// Merges a row with the row of the same name here: both sides created it separately.
-    fn join(&mut self, key: &Key, theirs: &Image, there: i64) -> Result<()> {
+    fn join(&mut self, key: &Key, bases: &[Image], theirs: &Image, there: i64) -> Result<()> {
         let (table, uid) = (key.0.as_str(), key.1.as_str());
         self.mine.know(table, uid, Some(there))?;
         self.parts(table, uid, there)?;
@@ -477,7 +482,7 @@ impl Work<'_> {
         let mut theirs = theirs.clone();
         theirs.insert("uid".into(), Value::from(own.clone()));
         match self.mine.row(table, &own)? {
-            Some(mine) => self.change(&(table.to_owned(), own), &[], &mine, &theirs),
+            Some(mine) => self.change(&(table.to_owned(), own), bases, &mine, &theirs),
             None => Ok(()),
         }
     }

@@ -6,11 +6,13 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Component, Path, PathBuf};
 
+use chereme_sign::text::composed;
+
 use crate::error::{Error, Result};
 
 /// The list of the files that were written; the next publication replaces these and no others.
 pub(super) const LIST: &str = "files.txt";
-/// The deepest folder that is looked into for files of others.
+/// The deepest folder of a publication that is looked into for files of others.
 const DEEPEST: usize = 32;
 
 /// A folder under construction.
@@ -46,7 +48,7 @@ impl Folder {
                 fs::remove_dir_all(left).map_err(|error| Error::file(left, error))?;
             }
         }
-        fs::create_dir_all(&part).map_err(|error| Error::file(&part, error))?;
+        fs::create_dir_all(&part).map_err(fault)?;
         Ok(Self {
             to: to.to_owned(),
             part,
@@ -112,28 +114,76 @@ impl Folder {
             return Err(fault(error));
         }
         self.done = true;
-        // The new folder is complete. A rest of the old one goes with the next publication.
-        drop(fs::remove_dir_all(&self.old));
+        if fs::remove_dir_all(&self.old).is_err() {
+            // It may hold signs that were withdrawn.
+            return Err(Error::wrong(
+                "the new pages are in place, but the old ones could not be removed",
+            )
+            .at(self.old.display().to_string())
+            .advise("remove this folder: signs that were withdrawn may be in it"));
+        }
         Ok((self.written.len(), self.bytes))
     }
 
-    /// Returns the files in the old folder that no publication wrote.
+    /// Returns the files and whole folders in the old folder that no publication wrote.
     fn others(&self) -> Result<Vec<String>> {
         let list = fs::read_to_string(self.to.join(LIST)).unwrap_or_default();
-        let known: BTreeSet<&str> = list.lines().filter(|it| is_inside(it)).collect();
-        let mut files = Vec::new();
-        walk(&self.to, "", 0, &mut files)?;
-        files.retain(|it| !known.contains(it.as_str()));
-        if let Some(clash) = files.iter().find(|it| self.written.contains(*it)) {
-            let path = self.to.join(clash);
-            return Err(
-                Error::wrong(format!("{clash:?} was not written by a publication"))
-                    .at(path.display().to_string())
-                    .advise("name an empty folder, or move the file away"),
-            );
-        }
-        Ok(files)
+        let known = list.lines().filter(|it| is_inside(it));
+        let known: BTreeSet<String> = known.map(|it| composed(it).into_owned()).collect();
+        let mut others = Vec::new();
+        self.walk("", 0, &known, &mut others)?;
+        Ok(others)
     }
+
+    fn walk(
+        &self,
+        prefix: &str,
+        depth: usize,
+        known: &BTreeSet<String>,
+        others: &mut Vec<String>,
+    ) -> Result<()> {
+        let folder = self.to.join(prefix);
+        let fault = |error| Error::file(&folder, error);
+        if depth > DEEPEST {
+            let text = "folders lie too deep inside each other";
+            return Err(Error::wrong(text).at(folder.display().to_string()));
+        }
+        for entry in fs::read_dir(&folder).map_err(fault)? {
+            let entry = entry.map_err(fault)?;
+            let Ok(name) = entry.file_name().into_string() else {
+                return Err(Error::wrong("a file's name is no text")
+                    .at(entry.path().display().to_string())
+                    .advise("move it out of the folder"));
+            };
+            let own = format!("{prefix}{name}");
+            // Some disks write accents as letters of their own.
+            let plain = composed(&own).into_owned();
+            // A link is moved as one, whatever it leads to.
+            let is_folder = entry.file_type().map_err(fault)?.is_dir();
+            let inside = format!("{plain}/");
+            if is_folder && (holds(known, &inside) || holds(&self.written, &inside)) {
+                self.walk(&format!("{own}/"), depth + 1, known, others)?;
+            } else if !is_folder && known.contains(&plain) {
+                continue;
+            } else if self.written.contains(&plain) || holds(&self.written, &inside) {
+                return Err(
+                    Error::wrong(format!("{own:?} was not written by a publication"))
+                        .at(entry.path().display().to_string())
+                        .advise("name an empty folder, or move the file away"),
+                );
+            } else {
+                others.push(own);
+            }
+        }
+        others.sort();
+        Ok(())
+    }
+}
+
+/// Reports whether a name begins with a text.
+fn holds(names: &BTreeSet<String>, start: &str) -> bool {
+    let mut after = names.range(start.to_owned()..);
+    after.next().is_some_and(|it| it.starts_with(start))
 }
 
 impl Drop for Folder {
@@ -163,32 +213,6 @@ fn beside(to: &Path, ending: &str) -> Result<PathBuf> {
     Ok(to.with_file_name(hidden))
 }
 
-fn walk(folder: &Path, prefix: &str, depth: usize, files: &mut Vec<String>) -> Result<()> {
-    let fault = |error| Error::file(folder, error);
-    if depth > DEEPEST {
-        return Err(
-            Error::wrong("folders lie too deep inside each other").at(folder.display().to_string())
-        );
-    }
-    for entry in fs::read_dir(folder).map_err(fault)? {
-        let entry = entry.map_err(fault)?;
-        let Ok(name) = entry.file_name().into_string() else {
-            return Err(Error::wrong("a file's name is no text")
-                .at(entry.path().display().to_string())
-                .advise("move it out of the folder"));
-        };
-        let own = format!("{prefix}{name}");
-        // A link is moved as one, whatever it leads to.
-        if entry.file_type().map_err(fault)?.is_dir() {
-            walk(&entry.path(), &format!("{own}/"), depth + 1, files)?;
-        } else {
-            files.push(own);
-        }
-    }
-    files.sort();
-    Ok(())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -202,9 +226,47 @@ mod tests {
     }
 
     fn listed(to: &Path) -> Vec<String> {
+        fn walk(folder: &Path, prefix: &str, files: &mut Vec<String>) {
+            for entry in fs::read_dir(folder).expect("read").flatten() {
+                let name = entry.file_name().into_string().expect("text");
+                let own = format!("{prefix}{name}");
+                match entry.path().is_dir() {
+                    true => walk(&entry.path(), &format!("{own}/"), files),
+                    false => files.push(own),
+                }
+            }
+        }
         let mut files = Vec::new();
-        walk(to, "", 0, &mut files).expect("read");
+        walk(to, "", &mut files);
+        files.sort();
         files
+    }
+
+    #[test]
+    fn folders_of_others_stay_as_they_are_and_accents_may_be_letters_of_their_own() {
+        let desk = tempfile::tempdir().expect("a folder");
+        let to = desk.path().join("site");
+        published(
+            &to,
+            &[("index.html", "1"), ("sign/\u{c9}T\u{c9}/index.html", "a")],
+        )
+        .expect("written");
+        // The repository that a site is kept in has folders without files.
+        fs::create_dir_all(to.join(".git/refs/heads")).expect("made");
+        fs::rename(
+            to.join("sign/\u{c9}T\u{c9}"),
+            to.join("sign/E\u{301}TE\u{301}"),
+        )
+        .expect("renamed");
+        published(&to, &[("index.html", "2")]).expect("replaced");
+        assert!(to.join(".git/refs/heads").is_dir());
+        assert_eq!(listed(&to), ["files.txt", "index.html"]);
+        assert!(!to.join("sign").exists());
+        fs::create_dir(to.join("sign")).expect("made");
+        fs::create_dir(to.join("app.js")).expect("made");
+        let clash = published(&to, &[("app.js", "2")]).expect_err("a clash");
+        assert!(clash.to_string().contains("app.js"), "{clash}");
+        assert!(to.join("app.js").is_dir() && to.join("sign").is_dir());
     }
 
     #[test]

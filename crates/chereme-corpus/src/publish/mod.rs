@@ -13,6 +13,7 @@ mod pages;
 mod words;
 
 use std::collections::BTreeMap;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use chereme_figure::raster::Style;
@@ -106,14 +107,25 @@ impl Corpus {
     /// others stay.
     ///
     /// # Errors
-    /// [`Error::Wrong`] if nothing may be published, the query cannot be read, or there are more than 50,000 signs;
-    /// [`Error::File`] if the folder cannot be written; [`Error::Stopped`]. The folder is as before then.
+    /// [`Error::Wrong`] if nothing may be published, the query cannot be read, there are more than 50,000 signs, or the
+    /// corpus itself lies in the folder; [`Error::File`] if the folder cannot be written; [`Error::Stopped`]. The folder
+    /// is as before then. If only the old pages could not be removed, the new ones are in place.
     pub fn publish(
         &mut self,
         to: &Path,
         options: &PublishOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Published> {
+        let [own, there] = [self.path(), to].map(fs::canonicalize);
+        if own
+            .ok()
+            .zip(there.ok())
+            .is_some_and(|(own, there)| own.starts_with(there))
+        {
+            return Err(Error::wrong("the corpus itself lies in this folder")
+                .at(to.display().to_string())
+                .advise("name a folder that holds only what everybody may see"));
+        }
         let terms = options.terms.as_deref().map(str::trim);
         let terms = terms.filter(|it| !it.is_empty());
         let permissions = Permissions::of(self.store.read(), terms)?;
@@ -165,7 +177,7 @@ impl Corpus {
     ) -> Result<(usize, usize)> {
         let inventories = inventories::load(self.store.read())?;
         let site = Site {
-            title: options.title.as_deref().unwrap_or("Signs"),
+            title: options.title.as_deref().unwrap_or("Signs · Signes"),
             contact: options.contact.as_deref(),
             inventories: &inventories,
         };
@@ -337,7 +349,11 @@ fn licences(terms: &BTreeMap<String, usize>) -> String {
          Conditions d’utilisation des signes de ce dossier ; la page de chaque signe a les siennes.\n\n",
     );
     for (it, signs) in terms {
-        text.push_str(&format!("{signs}: {it}\n"));
+        let (english, french) = match signs {
+            1 => ("sign", "signe"),
+            _ => ("signs", "signes"),
+        };
+        text.push_str(&format!("{it}: {signs} {english} · {signs} {french}\n"));
     }
     text
 }

@@ -1,5 +1,3 @@
-use std::fs;
-
 use super::*;
 use crate::consent::tests::corpus;
 use crate::{Audience, ConsentChange, SignChange, unheard};
@@ -74,6 +72,8 @@ fn nothing_is_published_that_nobody_agreed_to() {
     let remedy = error.remedy().map(|it| it.text().to_owned());
     assert!(remedy.is_some_and(|it| it.contains("chereme consent") || it.contains("--terms")));
     assert!(!to.exists());
+    let error = publish(&mut corpus, folder.path(), Some("CC0")).expect_err("the corpus is in it");
+    assert!(error.to_string().contains("the corpus itself"), "{error}");
     // Entries of the lexicon show nobody; their terms are enough.
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert!(done.signs > 3 && done.moving == 0 && done.signers == 0);
@@ -153,6 +153,7 @@ fn pages_work_without_a_script_and_ask_no_other_computer() {
         assert!(page.contains(part), "{part}\n{page}");
     }
     assert!(text("list.html").contains("sign/ESCARGOT/index.html"));
+    assert!(text("LICENCES.txt").contains("\nCC BY 4.0: 3 signs · 3 signes\n"));
     for (name, bytes) in &all {
         let text = String::from_utf8_lossy(bytes);
         if name.ends_with(".html") {
@@ -176,6 +177,53 @@ fn pages_work_without_a_script_and_ask_no_other_computer() {
             }
         }
     }
+}
+
+#[test]
+fn words_of_others_are_text_and_nothing_else() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = folder.path().join("signs.tsv");
+    let glosses = [
+        "<script>alert(1)</script>",
+        "' onload='x' \u{202e}",
+        "..",
+        "CON",
+        "__proto__",
+        "@@TERMS@@",
+        &"L".repeat(3000),
+    ];
+    let rows = glosses.map(|it| format!("{it}\t</script><img src=x>\t1\tB\n"));
+    let head = "NL gloss\tEN gloss\tHandedness\tHandshape strong\n";
+    fs::write(&table, format!("{head}{}", rows.concat())).expect("written");
+    let mut corpus = Corpus::create(&folder.path().join("a.chereme"), "A").expect("created");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let options = crate::ImportOptions::default();
+    corpus
+        .import(&[table], &options, progress)
+        .expect("imported");
+    let to = folder.path().join("site");
+    let done = publish(&mut corpus, &to, Some("<b>\"T\"")).expect("published");
+    assert_eq!(done.signs, glosses.len());
+    let all = files(&to);
+    let pages = all.iter().filter(|(name, _)| name.ends_with(".html"));
+    for (name, bytes) in pages {
+        let text = String::from_utf8_lossy(bytes);
+        let scripts = text.matches("<script").count();
+        assert_eq!(
+            scripts,
+            text.matches("<script defer src=").count(),
+            "{name}"
+        );
+        assert!(
+            !text.contains("<img src=x") && !text.contains("<b>"),
+            "{name}"
+        );
+        assert_eq!(text.matches("</script>").count(), scripts, "{name}");
+    }
+    let signs = all.keys().filter(|it| it.starts_with("sign/"));
+    assert_eq!(signs.count(), glosses.len());
+    assert!(all.keys().all(|it| it.len() < 120 && !it.contains("..")));
 }
 
 /// Returns a page as a browser has it after its scripts ran; nothing if there is no browser.

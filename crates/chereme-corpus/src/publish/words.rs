@@ -62,6 +62,20 @@ const NAMES: &[(&str, Pair)] = &[
     ("repetition", ["repetition", "répétition"]),
     ("manner", ["manner", "manière"]),
     ("contact", ["contact", "contact"]),
+    ("handedness", ["hands", "mains"]),
+    ("letter", ["letter", "lettre"]),
+    ("shape", ["shape", "forme"]),
+    ("repeated", ["repeated", "répété"]),
+    ("alternating", ["alternating", "alterné"]),
+    ("change", ["change", "changement"]),
+    (
+        "relative-movement",
+        ["towards the movement", "vers le mouvement"],
+    ),
+    (
+        "relative-location",
+        ["towards the place", "vers l’emplacement"],
+    ),
     ("relation", ["relation", "relation"]),
     ("brows", ["brows", "sourcils"]),
     ("lids", ["lids", "paupières"]),
@@ -147,4 +161,34 @@ pub(super) fn coded_field(name: &str) -> [String; 2] {
             field(it.component, it.feature.as_deref(), hand, it.phase)
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use chereme_sign::inventory;
+
+    use super::*;
+
+    #[test]
+    fn features_of_inventories_and_of_known_tables_have_words() {
+        let own = inventory::builtin()
+            .iter()
+            .filter_map(|it| it.feature.as_deref());
+        let tables = [
+            "handedness",
+            "shape",
+            "repeated",
+            "alternating",
+            "change",
+            "relative-movement",
+            "relative-location",
+        ];
+        let missing: Vec<&str> = own
+            .chain(tables)
+            .filter(|word| !NAMES.iter().any(|(name, _)| name == word))
+            .collect();
+        assert!(missing.is_empty(), "{missing:?}");
+        let [_, french] = field(Component::Movement, Some("repeated"), None, None);
+        assert_eq!(french, "mouvement\u{a0}: répété");
+    }
 }

@@ -47,8 +47,12 @@ pub(super) const PUBLISHING: &[(&str, &str)] = &[
         "un enregistrement dont ils sont faits ne peut pas être modifié",
     ),
     (
-        "a recording that they were made from was deleted",
-        "un enregistrement dont ils sont faits a été supprimé",
+        "two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided",
+        "deux copies du corpus ne sont pas d’accord : `chereme conflicts CORPUS` donne la liste de ce qui est à décider",
+    ),
+    (
+        "a recording that they were made from is not known, or was deleted",
+        "un enregistrement dont ils sont faits n’est pas connu, ou a été supprimé",
     ),
     (
         "none of {n} signs may be published",
@@ -92,4 +96,20 @@ pub(super) const PUBLISHING: &[(&str, &str)] = &[
         "le nom d’un fichier n’est pas un texte",
     ),
     ("move it out of the folder", "déplacez-le hors du dossier"),
+    (
+        "the corpus itself lies in this folder",
+        "le corpus lui-même est dans ce dossier",
+    ),
+    (
+        "name a folder that holds only what everybody may see",
+        "nommez un dossier qui ne contient que ce que tout le monde peut voir",
+    ),
+    (
+        "the new pages are in place, but the old ones could not be removed",
+        "les nouvelles pages sont en place, mais les anciennes n’ont pas pu être supprimées",
+    ),
+    (
+        "remove this folder: signs that were withdrawn may be in it",
+        "supprimez ce dossier : des signes retirés peuvent s’y trouver",
+    ),
 ];

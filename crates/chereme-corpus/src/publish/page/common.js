@@ -12,7 +12,7 @@ if (!TEXTS[language]) language = (navigator.language || "en").startsWith("fr") ?
 
 const t = (name, values) => {
   let text = TEXTS[language][name];
-  for (const key in values || {}) text = text.replace("{" + key + "}", values[key]);
+  for (const key in values || {}) text = text.replace("{" + key + "}", () => values[key]);
   return text;
 };
 
