@@ -211,3 +211,27 @@ fn the_pane_speaks_french_and_advises_without_two_tiers() {
         contains(it, "Choose the tiers of two annotators")
     });
 }
+
+#[test]
+fn a_low_and_narrow_pane_shows_the_names_of_all_lists_and_the_opened_row() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    until(&mut window, "the comparison", |it| {
+        has(it, "Disagreements (3)")
+    });
+    window.set_size([1280.0, 800.0].into());
+    window.key_press_modifiers(CTRL, Key::F1);
+    window.run_steps(3);
+    window.key_press_modifiers(CTRL | ALT, Key::B);
+    window.run_steps(3);
+    for _ in 0..3 {
+        window.key_press_modifiers(ALT, Key::PageDown);
+        window.run_steps(20);
+    }
+    // The timeline lies below the pane, and the stage beside it.
+    let [right, bottom] = [0.262 * 1280.0, 0.575 * 800.0];
+    let name = window.get_by_label("All measures").rect();
+    assert!(name.right() < right, "{name}");
+    let row = window.get_by_label("LONG: start +0 ms, end +100 ms").rect();
+    assert!(row.right() < right && row.bottom() < bottom, "{row}");
+}
