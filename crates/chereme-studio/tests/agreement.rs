@@ -6,8 +6,8 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, Instant, Moment, Name, NewTier,
-    Progress, TierName, TierRole, unheard,
+    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, ImportOptions, Instant, Moment, Name,
+    NewTier, Progress, TierName, TierRole, unheard,
 };
 use chereme_studio::{Language, Options};
 use common::tiers::{ALT, CTRL, operations, stored};
@@ -234,4 +234,29 @@ fn a_low_and_narrow_pane_shows_the_names_of_all_lists_and_the_opened_row() {
     assert!(name.right() < right, "{name}");
     let row = window.get_by_label("LONG: start +0 ms, end +100 ms").rect();
     assert!(row.right() < right && row.bottom() < bottom, "{row}");
+}
+
+#[test]
+fn a_recording_without_two_tiers_asks_for_another_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = chereme_corpus::unpack_starter(&folder.path().join("files")).expect("unpacked");
+    let is_movement = |path: &&PathBuf| path.ends_with("escargot.bvh");
+    let file = files.iter().find(is_movement).expect("a movement");
+    let path = folder.path().join("bare.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    corpus
+        .import(&[file.clone()], &ImportOptions::default(), &mut progress)
+        .expect("imported");
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |it| contains(it, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(CTRL | ALT, Key::B);
+    until(&mut window, "advice", |it| {
+        has(it, "Open a recording with the tiers of two annotators.")
+    });
 }

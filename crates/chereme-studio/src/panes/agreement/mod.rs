@@ -366,8 +366,14 @@ impl Pane for AgreementPane {
             }
             self.status(ui, seen);
             let Some((found, names)) = self.found.clone() else {
-                if self.asking.is_none() && self.wrong.is_none() && contents.is_some() {
-                    ui.label(seen.say(words::CHOOSE));
+                if let Some(open) =
+                    contents.filter(|_| self.asking.is_none() && self.wrong.is_none())
+                {
+                    let advice = match open.tiers.len() {
+                        0 | 1 => words::NO_RECORDING,
+                        _ => words::CHOOSE,
+                    };
+                    ui.label(seen.say(advice));
                 }
                 return;
             };
