@@ -37,8 +37,8 @@ fn glosses(second: bool) -> Vec<(String, i64, i64)> {
     all
 }
 
-fn write_tier(corpus: &mut Corpus, of: i64, name: &str, glosses: &[(String, i64, i64)]) {
-    let recording = Name::Number(of);
+fn write_tier(corpus: &mut Corpus, name: &str, glosses: &[(String, i64, i64)]) {
+    let recording = Name::Number(1);
     corpus
         .add_tier(&NewTier::new(recording.clone(), name, TierRole::Free))
         .expect("a tier");
@@ -72,8 +72,8 @@ fn write_tier(corpus: &mut Corpus, of: i64, name: &str, glosses: &[(String, i64,
 fn coded_twice(folder: &Path) -> PathBuf {
     let path = small_corpus(folder);
     let mut corpus = Corpus::open(&path, "A").expect("opened");
-    write_tier(&mut corpus, 1, "Notes Anna", &glosses(false));
-    write_tier(&mut corpus, 1, "Notes Ben", &glosses(true));
+    write_tier(&mut corpus, "Notes Anna", &glosses(false));
+    write_tier(&mut corpus, "Notes Ben", &glosses(true));
     path
 }
 
@@ -82,12 +82,9 @@ fn contains(window: &Window<'_>, label: &str) -> bool {
 }
 
 fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
-    opened_on(folder, coded_twice(folder), language)
-}
-
-fn opened_on<'a>(folder: &Path, path: PathBuf, language: Language) -> Window<'a> {
+    let corpus = Some(coded_twice(folder));
     let mut window = window(Options {
-        corpus: Some(path),
+        corpus,
         language,
         ..options(folder)
     });
@@ -262,48 +259,4 @@ fn a_recording_without_two_tiers_asks_for_another_one() {
     until(&mut window, "advice", |it| {
         has(it, "Open a recording with the tiers of two annotators.")
     });
-}
-
-#[test]
-fn nothing_moves_while_a_disagreement_of_another_recording_is_opened() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = coded_twice(folder.path());
-    let files = folder.path().join("files");
-    let files = chereme_corpus::unpack_starter(&files).expect("unpacked");
-    let is_other = |path: &&PathBuf| path.ends_with("aimer.bvh");
-    let other = files.iter().find(is_other).expect("a movement").clone();
-    let mut corpus = Corpus::open(&path, "A").expect("opened");
-    let mut hear = unheard;
-    corpus
-        .import(
-            &[other],
-            &ImportOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
-        .expect("imported");
-    write_tier(&mut corpus, 2, "Notes Anna", &glosses(false));
-    write_tier(&mut corpus, 2, "Notes Ben", &glosses(true));
-    drop(corpus);
-    let mut window = opened_on(folder.path(), path, Language::English);
-    until(&mut window, "the comparison", |it| {
-        has(it, "Disagreements (3)")
-    });
-    click(&mut window, "In every recording");
-    until(&mut window, "both recordings", |it| {
-        has(it, "Disagreements (6)")
-    });
-    let at = |window: &Window<'_>| window.get_by_label("All measures").rect();
-    let before = at(&window);
-    for _ in 0..6 {
-        window.key_press_modifiers(ALT, Key::PageDown);
-        for _ in 0..20 {
-            window.step();
-            assert_eq!(at(&window), before);
-        }
-        until(&mut window, "the recording", |it| {
-            assert_eq!(at(it), before);
-            it.state().is_idle()
-        });
-    }
-    assert!(has(&window, "6 of 6"));
 }

@@ -352,9 +352,7 @@ impl Pane for AgreementPane {
             self.settle(contents);
             self.follow(ui, seen, contents, out);
         }
-        // While another recording is read, its predecessor keeps all widgets where they are.
-        let before = seen.snapshot.open.as_deref().map(|it| &it.contents);
-        let contents = contents.or(before.filter(|_| seen.shown.recording.is_some()));
+        let contents = seen.snapshot.contents_or_before(seen.shown.recording);
         self.refresh(seen.language);
         let area = ScrollArea::vertical()
             .id_salt("agreement")
