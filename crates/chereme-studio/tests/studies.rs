@@ -296,3 +296,29 @@ fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
     let save = window.get_by_label("Save the report");
     assert!(save.accesskit_node().is_disabled());
 }
+
+#[test]
+fn the_keyboard_keeps_what_it_reaches_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    window.set_size([1280.0, 800.0].into());
+    window.key_press_modifiers(CTRL, Key::F1);
+    window.run_steps(3);
+    window.key_press_modifiers(CTRL | ALT, Key::O);
+    window.run_steps(3);
+    click(&mut window, "New study");
+    // The timeline lies below the pane.
+    let bottom = 0.575 * 800.0;
+    let last = "Each person sees a sign in one condition only";
+    assert!(window.get_by_label(last).rect().top() > bottom);
+    for _ in 0..20 {
+        window.key_press(Key::Tab);
+        window.run_steps(30);
+        if window.get_by_label(last).is_focused() {
+            break;
+        }
+    }
+    let reached = window.get_by_label(last);
+    assert!(reached.is_focused());
+    assert!(reached.rect().bottom() < bottom, "{}", reached.rect());
+}

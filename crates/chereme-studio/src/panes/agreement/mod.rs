@@ -13,7 +13,7 @@ use eframe::egui::{
 };
 
 use self::data::{Choices, Key, Kinds, Order, Row};
-use super::{Acted, Pane, combo};
+use super::{Acted, Pane, combo, reach_focus};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -390,6 +390,7 @@ impl Pane for AgreementPane {
                 View::Measures => tables::every_measure(ui, seen, &found),
                 View::Recordings => tables::recordings(ui, seen, &found),
             });
+            reach_focus(ui);
         });
     }
 

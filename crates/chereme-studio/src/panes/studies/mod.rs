@@ -17,7 +17,7 @@ use chereme_sign::Handedness;
 use eframe::egui::{Button, Id, ProgressBar, ScrollArea, Ui};
 
 use self::data::Draft;
-use super::{Pane, list_row};
+use super::{Pane, list_row, reach_focus};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
@@ -407,6 +407,7 @@ impl Pane for Studies {
         area.show(ui, |ui| {
             if self.draft.is_some() {
                 draft::show(self, ui, seen, out);
+                reach_focus(ui);
                 return;
             }
             self.list(ui, seen);
@@ -416,6 +417,7 @@ impl Pane for Studies {
             let of_study = self.forms.wrong.as_ref();
             let of_study = of_study.filter(|_| self.chosen().is_some());
             self.trouble(ui, seen, self.wrong.as_ref().or(of_study));
+            reach_focus(ui);
         });
     }
 
