@@ -247,7 +247,11 @@ fn a_recording_without_two_tiers_asks_for_another_one() {
     let mut hear = unheard;
     let mut progress = Progress::new(&mut hear);
     corpus
-        .import(&[file.clone()], &ImportOptions::default(), &mut progress)
+        .import(
+            std::slice::from_ref(file),
+            &ImportOptions::default(),
+            &mut progress,
+        )
         .expect("imported");
     let mut window = window(Options {
         corpus: Some(path),
