@@ -6,8 +6,8 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, Instant, Moment, Name, NewTier,
-    Progress, TierName, TierRole, unheard,
+    AgreeOptions, AnnotateOptions, AnnotationAction, Corpus, ImportOptions, Instant, Moment, Name,
+    NewTier, Progress, TierName, TierRole, unheard,
 };
 use chereme_studio::{Language, Options};
 use common::tiers::{ALT, CTRL, operations, stored};
@@ -209,5 +209,58 @@ fn the_pane_speaks_french_and_advises_without_two_tiers() {
     window.key_press_modifiers(CTRL | ALT, Key::B);
     until(&mut window, "advice", |it| {
         contains(it, "Choose the tiers of two annotators")
+    });
+}
+
+#[test]
+fn a_low_and_narrow_pane_shows_the_names_of_all_lists_and_the_opened_row() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    until(&mut window, "the comparison", |it| {
+        has(it, "Disagreements (3)")
+    });
+    window.set_size([1280.0, 800.0].into());
+    window.key_press_modifiers(CTRL, Key::F1);
+    window.run_steps(3);
+    window.key_press_modifiers(CTRL | ALT, Key::B);
+    window.run_steps(3);
+    for _ in 0..3 {
+        window.key_press_modifiers(ALT, Key::PageDown);
+        window.run_steps(20);
+    }
+    // The timeline lies below the pane, and the stage beside it.
+    let [right, bottom] = [0.262 * 1280.0, 0.575 * 800.0];
+    let name = window.get_by_label("All measures").rect();
+    assert!(name.right() < right, "{name}");
+    let row = window.get_by_label("LONG: start +0 ms, end +100 ms").rect();
+    assert!(row.right() < right && row.bottom() < bottom, "{row}");
+}
+
+#[test]
+fn a_recording_without_two_tiers_asks_for_another_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let files = chereme_corpus::unpack_starter(&folder.path().join("files")).expect("unpacked");
+    let is_movement = |path: &&PathBuf| path.ends_with("escargot.bvh");
+    let file = files.iter().find(is_movement).expect("a movement");
+    let path = folder.path().join("bare.chereme");
+    let mut corpus = Corpus::create(&path, "A").expect("made");
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    corpus
+        .import(
+            std::slice::from_ref(file),
+            &ImportOptions::default(),
+            &mut progress,
+        )
+        .expect("imported");
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |it| contains(it, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(CTRL | ALT, Key::B);
+    until(&mut window, "advice", |it| {
+        has(it, "Open a recording with the tiers of two annotators.")
     });
 }

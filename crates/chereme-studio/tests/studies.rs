@@ -5,11 +5,12 @@ mod common;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use chereme_corpus::Corpus;
+use chereme_corpus::study::StudyRequest;
 use chereme_corpus::study::answers::{
     ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
 };
-use chereme_corpus::study::plan::Role as TrialRole;
+use chereme_corpus::study::plan::{Design, Role as TrialRole};
+use chereme_corpus::{Corpus, Progress, unheard};
 use chereme_studio::Language;
 use common::tiers::{ALT, CTRL, operations, stored};
 use common::*;
@@ -78,6 +79,7 @@ fn write_answers(folder: &Path, sha256: &str, code: &str, values: [i64; 2]) -> P
         consent: [("analysis".to_owned(), true)].into(),
         profile: [].into(),
         finished: true,
+        skipped: Default::default(),
         answers: (1..).zip(answers).map(answer).collect(),
     };
     let path = folder.join(format!("{code}.json"));
@@ -211,4 +213,112 @@ fn the_form_takes_the_chosen_sign_and_speaks_french() {
     assert!(!has(&window, "Question 2"));
     let store = window.get_by_label("Enregistrer le plan");
     assert!(store.accesskit_node().is_disabled(), "the name is missing");
+}
+
+#[test]
+fn a_plan_that_is_left_can_be_continued_and_a_mended_fault_is_not_said_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    until(&mut window, "the empty list", |it| {
+        contains(it, "No study yet")
+    });
+    // The form is filled in without the mouse.
+    window.get_by_label("New study").focus();
+    window.run_steps(2);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+    let name = window.get_by_label("Name of the study");
+    assert!(name.accesskit_node().is_focused());
+    type_into(&mut window, "Name of the study", "places");
+    type_into(&mut window, "Signs", "NULLE");
+    click(&mut window, "Store the plan");
+    until(&mut window, "the fault", |it| {
+        contains(it, "is not in the corpus")
+    });
+    type_into(&mut window, "Signs", " ESCARGOT");
+    assert!(!contains(&window, "is not in the corpus"));
+    click(&mut window, "Back to the studies");
+    click(&mut window, "Continue the unfinished plan");
+    let name = window.get_by_label("Name of the study");
+    assert_eq!(name.accesskit_node().value().as_deref(), Some("places"));
+}
+
+#[test]
+fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    let path = window.state().corpus().expect("open").clone();
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    for name in ["one", "two"] {
+        let request = StudyRequest {
+            name: name.to_owned(),
+            title: None,
+            items: vec!["ESCARGOT".to_owned()],
+            conditions: vec![("captured".to_owned(), "{}".to_owned())],
+            trials: None,
+            questions: vec!["realism".to_owned()],
+            scale: 5,
+            design: Design::default(),
+        };
+        let plan = request.plan().expect("a plan");
+        let mut hear = unheard;
+        corpus
+            .plan_study(&plan, &mut Progress::new(&mut hear))
+            .expect("stored");
+    }
+    until(&mut window, "the studies", |it| has(it, "two"));
+    click(&mut window, "one");
+    click(&mut window, "Questionnaire");
+    // A file stands where the folder is to be.
+    std::fs::write(folder.path().join("one-questionnaire"), "").expect("written");
+    click(&mut window, "Build the questionnaire");
+    click(&mut window, "two");
+    idle(&mut window);
+    assert!(!contains(&window, "one-questionnaire"));
+    click(&mut window, "one");
+    until(&mut window, "the fault", |it| {
+        contains(it, "one-questionnaire")
+    });
+    // Nobody has answered; a path that is emptied is not proposed again.
+    click(&mut window, "Report");
+    until(&mut window, "the report", |it| {
+        has(it, "Nobody has answered yet.")
+    });
+    let file = (Role::TextInput, "File of the report (.html)");
+    window.get_by_role_and_label(file.0, file.1).focus();
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL, Key::A);
+    window.run_steps(2);
+    window.key_press(Key::Backspace);
+    window.run_steps(3);
+    let field = window.get_by_role_and_label(file.0, file.1);
+    assert_eq!(field.accesskit_node().value().as_deref(), Some(""));
+    let save = window.get_by_label("Save the report");
+    assert!(save.accesskit_node().is_disabled());
+}
+
+#[test]
+fn the_keyboard_keeps_what_it_reaches_in_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path(), Language::English);
+    window.set_size([1280.0, 800.0].into());
+    window.key_press_modifiers(CTRL, Key::F1);
+    window.run_steps(3);
+    window.key_press_modifiers(CTRL | ALT, Key::O);
+    window.run_steps(3);
+    click(&mut window, "New study");
+    // The timeline lies below the pane.
+    let bottom = 0.575 * 800.0;
+    let last = "Each person sees a sign in one condition only";
+    assert!(window.get_by_label(last).rect().top() > bottom);
+    for _ in 0..20 {
+        window.key_press(Key::Tab);
+        window.run_steps(30);
+        if window.get_by_label(last).is_focused() {
+            break;
+        }
+    }
+    let reached = window.get_by_label(last);
+    assert!(reached.is_focused());
+    assert!(reached.rect().bottom() < bottom, "{}", reached.rect());
 }

@@ -127,6 +127,12 @@ impl Snapshot {
         (contents.recording.id == recording).then_some(contents)
     }
 
+    /// Returns the annotations of a recording, or those of its predecessor while it is read, so that what shows them
+    /// keeps its place.
+    pub(crate) fn contents_or_before(&self, recording: Option<i64>) -> Option<&Contents> {
+        recording.and(self.open.as_deref()).map(|it| &it.contents)
+    }
+
     /// Returns the annotation with that row id, if it is in the open recording.
     pub(crate) fn annotation(&self, id: i64) -> Option<Found<'_>> {
         let open = self.open.as_deref()?;
@@ -165,5 +171,23 @@ mod tests {
         ] {
             assert_eq!(snapshot.named(text), wanted);
         }
+    }
+
+    #[test]
+    fn the_recording_before_stays_while_another_one_is_read() {
+        let contents = crate::panes::timeline::contents_of(&[(1, 0, 10)]);
+        let own = contents.recording.id;
+        let snapshot = Snapshot {
+            open: Some(Arc::new(Opened::new(contents))),
+            ..Snapshot::default()
+        };
+        let kept = |recording| {
+            let kept = snapshot.contents_or_before(recording);
+            kept.map(|it| it.recording.id)
+        };
+        assert!(snapshot.contents(own + 1).is_none());
+        assert_eq!(kept(Some(own + 1)), Some(own));
+        assert_eq!(kept(Some(own)), Some(own));
+        assert_eq!(kept(None), None, "no recording is shown");
     }
 }

@@ -213,6 +213,20 @@ pub(crate) fn list_row(
     list_row_after(ui, (height, 0.0), chosen, name, about)
 }
 
+/// Scrolls to a widget of this part of a pane that the keyboard has just reached.
+pub(crate) fn reach_focus(ui: &Ui) {
+    let focused = ui.memory(|memory| memory.focused());
+    let Some(it) = focused.and_then(|id| ui.ctx().read_response(id)) else {
+        return;
+    };
+    // What is in sight elsewhere may lie where hidden widgets of this part would be.
+    let is_elsewhere =
+        it.interact_rect.is_positive() && !ui.clip_rect().intersects(it.interact_rect);
+    if it.gained_focus() && ui.min_rect().contains_rect(it.rect) && !is_elsewhere {
+        ui.scroll_to_rect(it.rect, None);
+    }
+}
+
 /// Shows a row of a list with a width of `lead` left free at its start, for a picture.
 pub(crate) fn list_row_after(
     ui: &mut Ui,

@@ -23,6 +23,7 @@ texts! {
     AGAIN: "Compare again", "Comparer à nouveau";
     COUNTS: "{a} and {b} annotations; matched {matched}, of equal value {equal}", "{a} et {b} annotations ; en correspondance {matched}, de même valeur {equal}";
     FEW: "Too few annotations or values for figures that say something; the list of disagreements holds.", "Trop peu d’annotations ou de valeurs pour des mesures qui disent quelque chose ; la liste des désaccords vaut quand même.";
+    MEASURES: "Measures", "Mesures";
     MEASURE: "measure", "mesure";
     VALUE: "value", "valeur";
     INTERVAL: "95 %", "95 %";

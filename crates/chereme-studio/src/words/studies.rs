@@ -4,6 +4,7 @@ texts! {
     TITLE: "Studies", "Études";
     NONE: "No study yet. A study shows clips of signs to people and asks about them.", "Pas encore d’étude. Une étude montre des signes à des personnes et les questionne.";
     NEW: "New study", "Nouvelle étude";
+    CONTINUE: "Continue the unfinished plan", "Continuer le plan inachevé";
     CLOSE_NEW: "Back to the studies", "Retour aux études";
     ROW_ABOUT: "{trials} trials: {items} × {conditions} · {people} people, {answers} answers", "{trials} essais : {items} × {conditions} · {people} personnes, {answers} réponses";
     DELETE: "Delete the study", "Supprimer l’étude";

@@ -126,12 +126,16 @@ impl AgreementPane {
         }
         let rows = std::mem::take(&mut self.rows);
         let mut opened = None;
+        let mut reached = None;
         let shown = area.show_rows(ui, height, rows.len(), |ui, range| {
             for at in range {
                 let row = &rows[at];
                 let chosen = self.at == Some(at);
                 let text = (row.name.as_str(), row.about.as_str());
                 let response = list_row_at(ui, row_id(at), (height, 0.0), chosen, text);
+                if self.reach == Some(at) {
+                    reached = Some(response.rect);
+                }
                 self.focus(ui, &response, at);
                 if response.clicked() {
                     opened = Some(at);
@@ -139,6 +143,10 @@ impl AgreementPane {
             }
         });
         self.scrolled = shown.state.clamped_offset().y;
+        // In a low pane the list itself is partly out of sight.
+        if let Some(row) = reached {
+            ui.scroll_to_rect(row, None);
+        }
         self.rows = rows;
         if let Some(at) = opened {
             self.open(at, seen, out);

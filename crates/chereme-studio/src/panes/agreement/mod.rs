@@ -13,7 +13,7 @@ use eframe::egui::{
 };
 
 use self::data::{Choices, Key, Kinds, Order, Row};
-use super::{Acted, Pane, combo};
+use super::{Acted, Pane, combo, reach_focus};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
@@ -352,6 +352,7 @@ impl Pane for AgreementPane {
             self.settle(contents);
             self.follow(ui, seen, contents, out);
         }
+        let contents = seen.snapshot.contents_or_before(seen.shown.recording);
         self.refresh(seen.language);
         let area = ScrollArea::vertical()
             .id_salt("agreement")
@@ -366,8 +367,14 @@ impl Pane for AgreementPane {
             }
             self.status(ui, seen);
             let Some((found, names)) = self.found.clone() else {
-                if self.asking.is_none() && self.wrong.is_none() && contents.is_some() {
-                    ui.label(seen.say(words::CHOOSE));
+                if let Some(open) =
+                    contents.filter(|_| self.asking.is_none() && self.wrong.is_none())
+                {
+                    let advice = match open.tiers.len() {
+                        0 | 1 => words::NO_RECORDING,
+                        _ => words::CHOOSE,
+                    };
+                    ui.label(seen.say(advice));
                 }
                 return;
             };
@@ -383,6 +390,7 @@ impl Pane for AgreementPane {
                 View::Measures => tables::every_measure(ui, seen, &found),
                 View::Recordings => tables::recordings(ui, seen, &found),
             });
+            reach_focus(ui);
         });
     }
 

@@ -24,7 +24,9 @@ pub(super) fn measures(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
         ("matched", &counts.matched),
         ("equal", &counts.equal),
     ];
-    let header = CollapsingHeader::new(fill(seen.say(words::COUNTS), &values))
+    ui.label(fill(seen.say(words::COUNTS), &values));
+    // A title does not wrap, and a long one would widen the whole pane.
+    let header = CollapsingHeader::new(seen.say(words::MEASURES))
         .id_salt("measures")
         .default_open(ui.clip_rect().height() > TALL);
     header.show(ui, |ui| {

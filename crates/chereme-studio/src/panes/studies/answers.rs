@@ -59,7 +59,7 @@ pub(super) fn show(
         ("answers", &it.answers),
     ];
     ui.label(fill(seen.say(words::PEOPLE), &values));
-    let form = &mut pane.answers;
+    let form = &mut pane.forms.answers;
     path_field(
         ui,
         seen,
@@ -85,10 +85,10 @@ pub(super) fn show(
         if import.on_disabled_hover_text(seen.say(why)).clicked() {
             let job = studying::import(it.plan.name.clone(), files);
             (form.importing, form.report) = (Some(out.work(job)), None);
-            pane.wrong = None;
+            pane.clear();
         }
     }
-    if let Some(report) = &pane.answers.report {
+    if let Some(report) = &pane.forms.answers.report {
         imported(ui, seen, report);
     }
 }

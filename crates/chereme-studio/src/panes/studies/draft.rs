@@ -1,7 +1,7 @@
 //! The form of a new plan: signs, conditions and questions, with the trials that they give.
 
 use chereme_corpus::study::plan::Order;
-use eframe::egui::{Button, DragValue, Role, Ui, WidgetInfo, vec2};
+use eframe::egui::{Button, DragValue, Response, Role, Ui, WidgetInfo, vec2};
 
 use super::data::Draft;
 use super::{Studies, Wrong, progress};
@@ -16,8 +16,10 @@ pub(super) fn show(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, out: &
     let Some(mut draft) = pane.draft.take() else {
         return;
     };
+    let before = draft.clone();
     let back = ui.button(seen.say(words::CLOSE_NEW)).clicked();
-    head(ui, seen, &mut draft);
+    let come = std::mem::take(&mut pane.come);
+    head(ui, seen, &mut draft, come);
     conditions(ui, seen, &mut draft);
     questions(ui, seen, &mut draft);
     design(ui, seen, &mut draft);
@@ -44,7 +46,10 @@ pub(super) fn show(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, out: &
         }
         progress(ui, seen, pane.planning, words::STORING, out);
     });
-    pane.trouble(ui, seen);
+    if draft != before {
+        pane.wrong = None;
+    }
+    pane.trouble(ui, seen, pane.wrong.as_ref());
     match &planned {
         Ok(plan) => pane.trials(ui, seen, plan, out),
         Err(error) => {
@@ -60,23 +65,32 @@ pub(super) fn show(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, out: &
             }
         }
     }
-    if !back {
-        pane.draft = Some(draft);
+    match back {
+        false => pane.draft = Some(draft),
+        true => {
+            pane.come = true;
+            if draft != Draft::default() {
+                pane.unfinished = Some(draft);
+            }
+        }
     }
 }
 
 /// Shows a line of text with its name before it.
-fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) {
+fn line(ui: &mut Ui, name: &str, hint: &str, text: &mut String) -> Response {
     let label = ui.weak(name);
-    let width = ui.available_width().min(360.0);
+    let width = (ui.available_width() - 2.0 * ui.spacing().button_padding.x).min(360.0);
     let shown = edit::line(ui, text, |field| field.hint_text(hint).desired_width(width));
     let response = shown.response.response;
     response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
-    response.labelled_by(label.id);
+    response.labelled_by(label.id)
 }
 
-fn head(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut Draft) {
-    line(ui, seen.say(words::NAME), "", &mut draft.name);
+fn head(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut Draft, come: bool) {
+    let name = line(ui, seen.say(words::NAME), "", &mut draft.name);
+    if come {
+        name.request_focus();
+    }
     let hint = seen.say(words::SHOWN_TITLE_HINT);
     line(ui, seen.say(words::SHOWN_TITLE), hint, &mut draft.title);
     let hint = seen.say(words::ITEMS_HINT);

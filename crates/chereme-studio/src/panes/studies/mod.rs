@@ -6,6 +6,7 @@ mod draft;
 mod questionnaire;
 mod report;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ use chereme_sign::Handedness;
 use eframe::egui::{Button, Id, ProgressBar, ScrollArea, Ui};
 
 use self::data::Draft;
-use super::{Pane, list_row};
+use super::{Pane, list_row, reach_focus};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
@@ -51,6 +52,15 @@ struct Wrong {
     remedy: Option<Remedy>,
 }
 
+impl From<&chereme_corpus::Error> for Wrong {
+    fn from(error: &chereme_corpus::Error) -> Self {
+        Self {
+            text: error.to_string(),
+            remedy: error.remedy(),
+        }
+    }
+}
+
 /// The pane.
 #[derive(Default)]
 pub(crate) struct Studies {
@@ -62,15 +72,60 @@ pub(crate) struct Studies {
     view: View,
     /// The plan that is being written, if its form is open.
     draft: Option<Draft>,
+    /// A plan whose form was left before it was stored.
+    unfinished: Option<Draft>,
+    /// Whether the first widget takes the keyboard focus.
+    come: bool,
     planning: Option<WorkId>,
     opening: Option<WorkId>,
     /// Whether the desktop had no program for a page.
     unopened: bool,
     wrong: Option<Wrong>,
     clip: Clip,
+    /// The forms of the chosen study, and those of the others by their names: their work goes on.
+    forms: Forms,
+    others: BTreeMap<String, Forms>,
+}
+
+/// What belongs to one study.
+#[derive(Default)]
+struct Forms {
     questionnaire: questionnaire::Form,
     answers: answers::Form,
     report: report::Shown,
+    wrong: Option<Wrong>,
+}
+
+impl Forms {
+    /// Takes the end of work that was requested from one of the forms; returns whether it was.
+    fn hear(&mut self, id: WorkId, ended: &Ended) -> bool {
+        let own = [
+            &mut self.questionnaire.building,
+            &mut self.answers.importing,
+            &mut self.report.making,
+            &mut self.report.saving,
+        ];
+        let mut is_own = false;
+        for work in own {
+            is_own |= work.take_if(|it| *it == id).is_some();
+        }
+        if !is_own {
+            return false;
+        }
+        match ended {
+            Ok(Outcome::QuestionnaireBuilt(done)) => {
+                self.questionnaire.built = Some(done.as_ref().clone());
+            }
+            Ok(Outcome::AnswersImported(report)) => {
+                self.answers.report = Some(report.as_ref().clone());
+            }
+            Ok(Outcome::Reported(report)) => self.report.found = Some(report.clone()),
+            Ok(Outcome::ReportWritten(files)) => self.report.saved = files.first().cloned(),
+            Ok(_) | Err(chereme_corpus::Error::Stopped) => {}
+            Err(error) => self.wrong = Some(Wrong::from(error)),
+        }
+        true
+    }
 }
 
 /// The clip of a trial that the stage shows next.
@@ -110,7 +165,7 @@ impl Studies {
             && self.view == View::Answers
             && paths.iter().all(fits);
         if takes {
-            self.answers.take(paths.to_vec());
+            self.forms.answers.take(paths.to_vec());
         }
         takes
     }
@@ -119,9 +174,9 @@ impl Studies {
     pub(crate) fn take_paths(&mut self, what: Choose, paths: Vec<PathBuf>) {
         let first = paths.first().map(|it| it.display().to_string());
         match (what, first) {
-            (Choose::Answers, Some(_)) => self.answers.take(paths),
-            (Choose::Questionnaire, Some(path)) => self.questionnaire.to = path,
-            (Choose::Report, Some(path)) => self.report.to = path,
+            (Choose::Answers, Some(_)) => self.forms.answers.take(paths),
+            (Choose::Questionnaire, Some(path)) => self.forms.questionnaire.to = path,
+            (Choose::Report, Some(path)) => self.forms.report.to = path,
             _ => {}
         }
     }
@@ -204,15 +259,31 @@ impl Studies {
             let name = &it.plan.name;
             let chosen = self.chosen.as_ref() == Some(name);
             let about = data::about(it, seen.language);
-            if list_row(ui, height, chosen, name, &about).clicked() {
+            let row = list_row(ui, height, chosen, name, &about);
+            if std::mem::take(&mut self.come) {
+                row.request_focus();
+            }
+            if row.clicked() {
                 self.choose(name.clone());
             }
         }
         let open = !seen.snapshot.is_read_only();
-        let new = ui.add_enabled(open, Button::new(seen.say(words::NEW)));
-        let new = new.on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
-        if new.clicked() {
-            (self.draft, self.wrong) = (Some(Draft::default()), None);
+        let mut begun = None;
+        ui.horizontal_wrapped(|ui| {
+            let new = ui.add_enabled(open, Button::new(seen.say(words::NEW)));
+            let new = new.on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
+            if self.all.is_some() && std::mem::take(&mut self.come) {
+                new.request_focus();
+            }
+            if new.clicked() {
+                begun = Some(Draft::default());
+            }
+            if self.unfinished.is_some() && ui.button(seen.say(words::CONTINUE)).clicked() {
+                begun = self.unfinished.take();
+            }
+        });
+        if begun.is_some() {
+            (self.draft, self.wrong, self.come) = (begun, None, true);
         }
     }
 
@@ -220,11 +291,12 @@ impl Studies {
         if self.chosen.as_ref() == Some(&name) {
             return;
         }
-        self.chosen = Some(name);
+        let forms = self.others.remove(&name).unwrap_or_default();
+        let before = std::mem::replace(&mut self.forms, forms);
+        if let Some(old) = self.chosen.replace(name) {
+            self.others.insert(old, before);
+        }
         self.wrong = None;
-        self.questionnaire = questionnaire::Form::default();
-        self.answers = answers::Form::default();
-        self.report = report::Shown::default();
     }
 
     /// Shows the chosen study.
@@ -264,11 +336,16 @@ impl Studies {
         }
     }
 
-    fn trouble(&self, ui: &mut Ui, seen: &PaneInput<'_>) {
+    /// Takes away what was said of work before.
+    fn clear(&mut self) {
+        (self.wrong, self.forms.wrong) = (None, None);
+    }
+
+    fn trouble(&self, ui: &mut Ui, seen: &PaneInput<'_>, wrong: Option<&Wrong>) {
         if self.unopened {
             ui.colored_label(seen.colours().warning, seen.say(words::NOT_OPENED));
         }
-        let Some(wrong) = &self.wrong else { return };
+        let Some(wrong) = wrong else { return };
         ui.colored_label(seen.colours().trouble, spoken(&wrong.text, seen.language));
         let helps = wrong.remedy.as_ref();
         if let Some(helps) = helps.and_then(|it| remedy::here(it, seen.language)) {
@@ -330,26 +407,30 @@ impl Pane for Studies {
         area.show(ui, |ui| {
             if self.draft.is_some() {
                 draft::show(self, ui, seen, out);
+                reach_focus(ui);
                 return;
             }
             self.list(ui, seen);
             if let Some(it) = self.chosen() {
                 self.study(ui, seen, &it, out);
             }
-            self.trouble(ui, seen);
+            let of_study = self.forms.wrong.as_ref();
+            let of_study = of_study.filter(|_| self.chosen().is_some());
+            self.trouble(ui, seen, self.wrong.as_ref().or(of_study));
+            reach_focus(ui);
         });
     }
 
     fn hear(&mut self, id: WorkId, ended: &Ended) {
+        let mut forms = std::iter::once(&mut self.forms).chain(self.others.values_mut());
+        if forms.any(|it| it.hear(id, ended)) {
+            return;
+        }
         let own = [
             &mut self.listing,
             &mut self.planning,
             &mut self.opening,
             &mut self.clip.making,
-            &mut self.questionnaire.building,
-            &mut self.answers.importing,
-            &mut self.report.making,
-            &mut self.report.saving,
         ];
         let mut is_own = false;
         for work in own {
@@ -362,26 +443,22 @@ impl Pane for Studies {
             Ok(Outcome::Studies(all)) => self.all = Some(all.clone()),
             Ok(Outcome::TrialClip(made)) => self.clip.made = Some(made.clone()),
             Ok(Outcome::Planned(name)) => {
-                self.draft = None;
+                // Another plan may have been begun since.
+                for draft in [&mut self.draft, &mut self.unfinished] {
+                    drop(draft.take_if(|it| it.name.trim() == name));
+                }
                 self.choose(name.clone());
-                self.view = View::Plan;
+                // What was built of a plan that this one replaced is of no use.
+                self.forms = Forms::default();
+                (self.view, self.come) = (View::Plan, true);
             }
-            Ok(Outcome::QuestionnaireBuilt(done)) => {
-                self.questionnaire.built = Some(done.as_ref().clone());
-            }
-            Ok(Outcome::AnswersImported(report)) => {
-                self.answers.report = Some(report.as_ref().clone());
-            }
-            Ok(Outcome::Reported(report)) => self.report.found = Some(report.clone()),
-            Ok(Outcome::ReportWritten(files)) => self.report.saved = files.first().cloned(),
             Ok(Outcome::Opened(opened)) => self.unopened = !opened,
             Ok(_) | Err(chereme_corpus::Error::Stopped) => {}
-            Err(error) => {
-                self.wrong = Some(Wrong {
-                    text: error.to_string(),
-                    remedy: error.remedy(),
-                });
-            }
+            Err(error) => self.wrong = Some(Wrong::from(error)),
         }
+    }
+
+    fn come(&mut self) {
+        self.come = true;
     }
 }

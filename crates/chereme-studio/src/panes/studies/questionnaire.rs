@@ -31,7 +31,7 @@ pub(super) fn show(
     it: &StudyOverview,
     out: &mut Outbox,
 ) {
-    let form = &mut pane.questionnaire;
+    let form = &mut pane.forms.questionnaire;
     if form.options.is_none() && form.to.is_empty() {
         let folder = format!("{}-questionnaire", data::file_stem(&it.plan.name));
         form.to = seen.beside(&folder).display().to_string();
@@ -65,10 +65,10 @@ pub(super) fn show(
             let to = PathBuf::from(form.to.trim());
             let job = studying::build(it.plan.name.clone(), to, options);
             (form.building, form.built) = (Some(out.work(job)), None);
-            pane.wrong = None;
+            pane.clear();
         }
     }
-    let Some(built) = &pane.questionnaire.built else {
+    let Some(built) = &pane.forms.questionnaire.built else {
         return;
     };
     let kb = built.bytes.div_ceil(1000);

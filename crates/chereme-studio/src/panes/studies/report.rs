@@ -22,6 +22,8 @@ pub(super) struct Shown {
     pub(super) making: Option<WorkId>,
     pub(super) found: Option<Arc<Report>>,
     pub(super) to: String,
+    /// Whether a file was proposed; a path that is emptied stays empty.
+    proposed: bool,
     paths: Paths,
     pub(super) saving: Option<WorkId>,
     /// Whether the file is opened once it is written.
@@ -39,7 +41,7 @@ pub(super) fn show(
     it: &StudyOverview,
     out: &mut Outbox,
 ) {
-    let shown = &mut pane.report;
+    let shown = &mut pane.forms.report;
     let generation = seen.snapshot.overview.generation;
     if shown.of != Some(generation) && !seen.is_running(shown.making) {
         shown.of = Some(generation);
@@ -51,7 +53,7 @@ pub(super) fn show(
     };
     figures(ui, seen, &report);
     ui.separator();
-    if shown.to.is_empty() {
+    if shown.to.is_empty() && !std::mem::replace(&mut shown.proposed, true) {
         let name = format!("{}-report.html", data::file_stem(&it.plan.name));
         shown.to = seen.beside(&name).display().to_string();
     }
@@ -83,7 +85,7 @@ pub(super) fn show(
         let force = shown.own.as_ref() == Some(&to);
         let job = studying::write_report(report, to, force, seen.language);
         (shown.saving, shown.opens) = (Some(out.work(job)), opens);
-        pane.wrong = None;
+        pane.clear();
         return;
     }
     if let Some(path) = shown.saved.take() {
