@@ -231,10 +231,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "les sens sont participant, language, started_day, finished, profile.NOM et consent.NOM",
     ),
     (
-        "the roles are training, main and check",
-        "les rôles sont training, main et check",
-    ),
-    (
         "`chereme study show CORPUS NAME` lists the trials",
         "`chereme study show CORPUS NOM` liste les essais",
     ),
