@@ -1,4 +1,4 @@
-//! What signers agreed to: who may see their movement, its annotation, and signs made from it.
+//! The consent of signers: who may see their movement, its annotation, and signs made from it.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
@@ -62,13 +62,13 @@ impl FromStr for Audience {
     }
 }
 
-/// What a consent is about.
+/// The subject of a consent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum ConsentKind {
     /// The recorded movement. It shows who signs, even without a face.
     Movement,
-    /// What annotators wrote about it: glosses, translations and component values.
+    /// Its annotation: glosses, translations and component values.
     Annotation,
     /// Signs made from the movement.
     Derived,
@@ -79,7 +79,7 @@ impl ConsentKind {
     pub const ALL: [Self; 3] = [Self::Movement, Self::Annotation, Self::Derived];
 }
 
-/// What a person agreed to. What is missing is unknown, which is less than a refusal and published as little.
+/// The consent of a person. A missing entry is unknown, which differs from a refusal but is not published either.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Consent {
     /// Who may see the recorded movement.
@@ -344,12 +344,12 @@ pub enum Withheld {
     InputGone,
 }
 
-/// What may be published of a corpus, read at one moment.
+/// The permissions of a corpus, read at one moment.
 pub(crate) struct Permissions {
     recordings: BTreeMap<i64, RecordingRow>,
     /// Whether everybody may see a recording, by kind: the narrowest of the consents that apply.
     agreed: BTreeMap<i64, [std::result::Result<(), Withheld>; 3]>,
-    /// What the consents of recordings themselves refuse to everybody.
+    /// The subjects that recordings themselves refuse to everybody.
     refused: BTreeSet<(i64, ConsentKind)>,
     /// The recordings that a generated one takes movement from; `None` if one of them is gone or not known.
     inputs: BTreeMap<i64, Option<BTreeSet<i64>>>,
@@ -522,7 +522,7 @@ fn doubts(connection: &Connection) -> Result<BTreeSet<(&'static str, i64, Consen
     for dispute in merge::disputes(connection)? {
         let differs = |column: &str| dispute.mine.get(column) != dispute.theirs.get(column);
         let other = dispute.theirs.get("consent").and_then(|it| it.as_str());
-        // What cannot be read allows nothing.
+        // A consent that cannot be read allows nothing.
         let other = Consent::read(other, dispute.table).unwrap_or_default();
         for kind in ConsentKind::ALL {
             let whole = match dispute.table {

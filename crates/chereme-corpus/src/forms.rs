@@ -1,4 +1,4 @@
-//! The forms of signs: what signs have in some fields, by which `pairs` and `stats` compare them.
+//! The forms of signs: their values in some fields, by which `pairs` and `stats` compare them.
 
 use std::collections::{BTreeMap, BTreeSet};
 

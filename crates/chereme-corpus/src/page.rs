@@ -1,4 +1,4 @@
-//! What the pages that the program writes share: parts put into a page, and bytes as text.
+//! Common parts of the pages that the program writes: texts put into a page, and bytes as text.
 
 use crate::map::escaped;
 

@@ -1,4 +1,4 @@
-//! What signers agreed to, as rows.
+//! The consent of signers, as rows.
 
 use rusqlite::{Connection, params};
 

@@ -91,7 +91,7 @@ pub struct LeftOut {
     pub signs: usize,
     /// The glosses of the first ones.
     pub first: Vec<String>,
-    /// What can be done about it.
+    /// The remedy.
     #[serde(serialize_with = "as_text")]
     pub remedy: Remedy,
 }

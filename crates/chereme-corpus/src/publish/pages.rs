@@ -27,13 +27,13 @@ pub(super) const SCRIPT: [&str; 5] = [
 ];
 pub(super) const STYLE: &str = include_str!("page/app.css");
 
-/// What a browser may do with a page: nothing but show files of the same folder.
+/// The policy of each page: a browser may only show files of the same folder.
 const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; form-action 'none'; base-uri 'none'";
 
 /// The size of the still picture of a sign, in pixels.
 pub(super) const STILL: [usize; 2] = [320, 400];
 
-/// What all pages of a dictionary share.
+/// The common content of all pages of a dictionary.
 pub(super) struct Site<'a> {
     pub(super) title: &'a str,
     pub(super) contact: Option<&'a str>,

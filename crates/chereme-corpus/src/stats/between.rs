@@ -45,7 +45,7 @@ pub struct FieldAssociation {
     pub cells: Vec<CrossCell>,
 }
 
-/// What shuffled values give.
+/// The association of shuffled values.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Chance {
     /// The number of shuffles.

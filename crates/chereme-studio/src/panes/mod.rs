@@ -219,7 +219,7 @@ pub(crate) fn reach_focus(ui: &Ui) {
     let Some(it) = focused.and_then(|id| ui.ctx().read_response(id)) else {
         return;
     };
-    // What is in sight elsewhere may lie where hidden widgets of this part would be.
+    // Visible widgets of other parts may lie where hidden widgets of this part would be.
     let is_elsewhere =
         it.interact_rect.is_positive() && !ui.clip_rect().intersects(it.interact_rect);
     if it.gained_focus() && ui.min_rect().contains_rect(it.rect) && !is_elsewhere {

@@ -90,7 +90,7 @@ pub(super) struct Row {
     pub(super) about: String,
 }
 
-/// What identifies a disagreement in a later comparison: the annotations of both sides.
+/// The annotations of both sides, which identify a disagreement in a later comparison.
 pub(super) type Key = [Option<i64>; 2];
 
 pub(super) fn key(it: &Disagreement) -> Key {
@@ -247,7 +247,7 @@ pub(super) fn meaning(measure: &str) -> Option<Text> {
     })
 }
 
-/// Returns a name for the third tier that none of `taken` has: what both names share, else both together.
+/// Returns a name for the third tier that is not in `taken`: the common part of both names, or both together.
 pub(super) fn third_name([a, b]: &[String; 2], taken: &[&str]) -> String {
     let same = |it: &(char, char)| it.0 == it.1;
     let before: String = a

@@ -177,7 +177,7 @@ pub(super) fn comparisons(report: &Report, language: Language) -> Vec<Vec<String
     report.comparisons.iter().flat_map(of_one).collect()
 }
 
-/// Returns a sentence for each conclusion, or the one that says why there is none.
+/// Returns a sentence for each conclusion; without conclusions, a sentence with the reason.
 pub(super) fn conclusions(report: &Report, language: Language) -> Vec<String> {
     let said = report.comparisons.iter().filter_map(|compared| {
         let (stated, conclusion) = compared

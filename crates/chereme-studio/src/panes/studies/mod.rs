@@ -87,7 +87,7 @@ pub(crate) struct Studies {
     others: BTreeMap<String, Forms>,
 }
 
-/// What belongs to one study.
+/// The forms, work and results of one study.
 #[derive(Default)]
 struct Forms {
     questionnaire: questionnaire::Form,
@@ -336,7 +336,7 @@ impl Studies {
         }
     }
 
-    /// Takes away what was said of work before.
+    /// Removes the results and errors of earlier work.
     fn clear(&mut self) {
         (self.wrong, self.forms.wrong) = (None, None);
     }
@@ -448,7 +448,7 @@ impl Pane for Studies {
                     drop(draft.take_if(|it| it.name.trim() == name));
                 }
                 self.choose(name.clone());
-                // What was built of a plan that this one replaced is of no use.
+                // Results of the replaced plan are of no use.
                 self.forms = Forms::default();
                 (self.view, self.come) = (View::Plan, true);
             }
