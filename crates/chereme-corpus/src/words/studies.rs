@@ -215,12 +215,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "ajoutez une ligne avec `participant` sous `means`",
     ),
     (
-        "no question about participants is called {name}",
-        "aucune question sur les participants ne s’appelle {name}",
-    ),
-    (
         "no question about participants is called {name}; did you mean {near}?",
         "aucune question sur les participants ne s’appelle {name} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "no question about participants is called {name}",
+        "aucune question sur les participants ne s’appelle {name}",
     ),
     (
         "{word} is no meaning of a column",
@@ -235,10 +235,6 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "`chereme study show CORPUS NOM` liste les essais",
     ),
     (
-        "the plan does not ask {name} there; did you mean {near}?",
-        "le plan n’y demande pas {name} ; vouliez-vous dire {near} ?",
-    ),
-    (
         "{pair} does not say what it stands for",
         "{pair} ne dit pas ce qu’il représente",
     ),
@@ -247,12 +243,12 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "écrivez les codes et leurs valeurs comme `A1=left; A2=right`",
     ),
     (
-        "the map names a column that the table does not have: {name}",
-        "la description nomme une colonne que le tableau n’a pas : {name}",
-    ),
-    (
         "the map names a column that the table does not have: {name}; did you mean {near}?",
         "la description nomme une colonne que le tableau n’a pas : {name} ; vouliez-vous dire {near} ?",
+    ),
+    (
+        "the map names a column that the table does not have: {name}",
+        "la description nomme une colonne que le tableau n’a pas : {name}",
     ),
     (
         "{text} in the column {name} is no answer to {question}; it was left out",
@@ -410,6 +406,10 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
     (
         "the plan has no trial with {item} and {condition} ({role})",
         "le plan n’a pas d’essai avec {item} et {condition} ({role})",
+    ),
+    (
+        "the plan does not ask {name} there; did you mean {near}?",
+        "le plan n’y demande pas {name} ; vouliez-vous dire {near} ?",
     ),
     (
         "the plan does not ask {name} there",
