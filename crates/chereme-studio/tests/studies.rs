@@ -103,6 +103,8 @@ fn a_study_is_planned_built_answered_and_reported() {
     type_into(&mut window, "Name of condition 2", "higher");
     let recipe = "Recipe of condition 2, with {} for the sign";
     type_into(&mut window, recipe, "place both by up 10cm");
+    // The form moves its rows while the plan is checked, so the click waits for that.
+    idle(&mut window);
     // Each clip is shown on the stage before anything is stored.
     click(&mut window, "ESCARGOT, higher");
     until(&mut window, "the clip", |it| {
