@@ -224,10 +224,9 @@ impl Studio {
         self.films.are_pictured()
     }
 
-    /// Returns the name of the movement on the stage, a recipe or a gloss, if the movement comes from a recipe and its
-    /// newest picture is drawn.
+    /// Returns the name of the movement on the stage, a recipe or a gloss, if the movement comes from a recipe.
     #[must_use]
-    pub fn drawn(&self) -> Option<&str> {
+    pub fn staged(&self) -> Option<&str> {
         let showing = self.shown.made.as_ref()?;
         let there = self.panes.stage.shows(&showing.made);
         there.then_some(showing.made.name.as_str())

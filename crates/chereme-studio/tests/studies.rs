@@ -108,7 +108,7 @@ fn a_study_is_planned_built_answered_and_reported() {
     // Each clip is shown on the stage before anything is stored.
     click(&mut window, "ESCARGOT, higher");
     until(&mut window, "the clip", |it| {
-        it.state().drawn() == Some("ESCARGOT, higher")
+        it.state().staged() == Some("ESCARGOT, higher")
     });
     let before = operations(&window);
     click(&mut window, "Store the plan");

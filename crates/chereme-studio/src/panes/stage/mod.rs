@@ -200,10 +200,10 @@ impl Stage {
         self.asked.is_some() && self.wished == self.shown
     }
 
-    /// Returns whether the newest pictures show that movement.
+    /// Returns whether that movement is on the stage.
     pub(crate) fn shows(&self, made: &Arc<GeneratedClip>) -> bool {
         let of = Of(Arc::as_ptr(made) as usize);
-        self.is_drawn() && self.signer.as_ref().is_some_and(|it| it.0 == of)
+        self.signer.as_ref().is_some_and(|it| it.0 == of)
     }
 
     /// Returns how the original is shown, if there is one.
