@@ -514,7 +514,8 @@ impl Meter {
         let Some((begun, frames)) = &mut self.change.typed else {
             return;
         };
-        if self.studio.drawn() == Some(&changed(recipe, self.change.times)) {
+        let wanted = changed(recipe, self.change.times);
+        if self.studio.is_drawn() && self.studio.staged() == Some(&wanted) {
             self.change.took.push(begun.elapsed());
             self.change.frames.push(*frames);
             self.change.typed = None;
