@@ -225,7 +225,7 @@ impl Corpus {
 }
 
 /// Reports whether a text is a day such as `2026-11-27`.
-fn is_day(text: &str) -> bool {
+pub(crate) fn is_day(text: &str) -> bool {
     let parts: Vec<&str> = text.split('-').collect();
     let number = |text: &str, digits: usize| {
         let all = text.len() == digits && text.bytes().all(|it| it.is_ascii_digit());

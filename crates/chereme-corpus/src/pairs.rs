@@ -100,16 +100,15 @@ impl Corpus {
     }
 }
 
-/// Returns the minimal pairs of codings, by all fields that one of them has.
-pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Result<Pairs> {
+/// Returns the minimal pairs of codings, by all fields that one of them has; `None` if there are too many to list.
+pub(crate) fn of_codings(codings: &[(String, BTreeMap<String, String>)]) -> Option<Pairs> {
     let fields: BTreeSet<&String> = codings.iter().flat_map(|(_, it)| it.keys()).collect();
     let fields = fields.into_iter().cloned().collect();
     let coded = codings.iter().filter(|(_, it)| !it.is_empty());
     let coded: Vec<(String, BTreeMap<String, String>)> = coded.cloned().collect();
-    pairs(
-        Forms::of(&coded, fields, FormSource::Citations),
-        Empty::Value,
-    )
+    // The only failure is that there are too many.
+    let forms = Forms::of(&coded, fields, FormSource::Citations);
+    pairs(forms, Empty::Value).ok()
 }
 
 fn pairs(mut table: Forms, empty: Empty) -> Result<Pairs> {

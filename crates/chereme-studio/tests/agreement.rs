@@ -77,10 +77,6 @@ fn coded_twice(folder: &Path) -> PathBuf {
     path
 }
 
-fn contains(window: &Window<'_>, label: &str) -> bool {
-    window.query_all_by_label_contains(label).next().is_some()
-}
-
 fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
     let corpus = Some(coded_twice(folder));
     let mut window = window(Options {

@@ -18,10 +18,6 @@ use eframe::egui::accesskit::Role;
 use eframe::egui::{DroppedFile, DroppedFileHandle, Event, Key};
 use egui_kittest::kittest::{NodeT, Queryable};
 
-fn contains(window: &Window<'_>, label: &str) -> bool {
-    window.query_all_by_label_contains(label).next().is_some()
-}
-
 fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
     let corpus = Some(small_corpus(folder));
     let mut window = window(chereme_studio::Options {

@@ -12,8 +12,8 @@ use crate::words::Words;
 /// State what signers agreed to: who may see their movement, its annotation, and signs made from it
 ///
 /// A consent belongs to a signer, or to one recording; where both say something, the narrower of the two holds. After a
-/// merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). What is not
-/// stated is unknown, and `chereme publish` leaves it out. Movement shows who signs even without a face: state it only
+/// merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). Without a
+/// statement a consent is unknown, and `chereme publish` leaves out what it covers. Movement shows who signs even without a face: state it only
 /// after the person agreed. Without an option the consents are listed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -132,8 +132,8 @@ pub(super) const WORDS: Words = Words {
             "Indiquer ce que les signeurs ont accepté : qui peut voir leur mouvement, son annotation et les signes qui en sont faits",
         ),
         (
-            "A consent belongs to a signer, or to one recording; where both say something, the narrower of the two holds. After a merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). What is not stated is unknown, and `chereme publish` leaves it out. Movement shows who signs even without a face: state it only after the person agreed. Without an option the consents are listed.",
-            "Un consentement appartient à un signeur ou à un enregistrement ; si les deux disent quelque chose, le plus étroit vaut. Après une fusion de copies qui ne sont pas d’accord aussi, le plus étroit vaut jusqu’à une décision (`chereme conflicts`). Ce qui n’est pas indiqué est inconnu, et `chereme publish` le laisse de côté. Un mouvement montre qui signe, même sans visage : ne l’indiquez qu’après l’accord de la personne. Sans option, les consentements sont énumérés.",
+            "A consent belongs to a signer, or to one recording; where both say something, the narrower of the two holds. After a merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). Without a statement a consent is unknown, and `chereme publish` leaves out what it covers. Movement shows who signs even without a face: state it only after the person agreed. Without an option the consents are listed.",
+            "Un consentement appartient à un signeur ou à un enregistrement ; si les deux disent quelque chose, le plus étroit vaut. Après une fusion de copies qui ne sont pas d’accord aussi, le plus étroit vaut jusqu’à une décision (`chereme conflicts`). Sans indication, un consentement est inconnu, et `chereme publish` laisse de côté ce qu’il concerne. Un mouvement montre qui signe, même sans visage : ne l’indiquez qu’après l’accord de la personne. Sans option, les consentements sont énumérés.",
         ),
         (
             "The signers and recordings, such as signer:Ada or recording:3",

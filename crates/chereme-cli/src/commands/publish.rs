@@ -22,7 +22,8 @@ use crate::words::Words;
 /// sign that was withdrawn leaves no trace; files of others in the folder stay.
 ///
 /// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
-/// (handshapes without a picture) and "left_out", each with "why", "movement" (whether only that was left out),
+/// (handshapes without a picture), "armless" (signs whose movement has no arms to show), "cut" (signs whose movement is
+/// cut), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why", "movement" (whether only that was left out),
 /// "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -87,6 +88,21 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             done.undrawn
         ))?;
     }
+    if done.armless > 0 {
+        output.line(format!(
+            "signs whose movement has no arms to show: {}",
+            done.armless
+        ))?;
+    }
+    if !done.cut.is_empty() {
+        output.line(format!(
+            "movement cut after 3600 frames: {}",
+            done.cut.join(", ")
+        ))?;
+    }
+    if done.without_pairs {
+        output.line("minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields")?;
+    }
     for it in &done.left_out {
         print_left_out(it, output)?;
     }
@@ -130,8 +146,8 @@ pub(super) const WORDS: Words = Words {
             "Seul est publié ce que tout le monde peut voir : les enregistrements dont les signeurs ont donné leur accord (`chereme consent`), sous des conditions indiquées, et ce qui n’est fait que de tels enregistrements. Les noms des signeurs, des enregistrements et des fichiers restent dehors ; les remarques aussi, sans --notes. Le compte rendu dit ce qui a été laissé de côté et pourquoi. Une deuxième publication remplace la première, et un signe retiré ne laisse pas de trace ; les fichiers d’autrui dans le dossier restent.",
         ),
         (
-            "`--json` gives \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signs by terms of use), \"undrawn\" (handshapes without a picture) and \"left_out\", each with \"why\", \"movement\" (whether only that was left out), \"signs\", \"first\" and \"remedy\".",
-            "`--json` donne \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signes par conditions d’utilisation), \"undrawn\" (configurations sans image) et \"left_out\", chacun avec \"why\", \"movement\" (si seul le mouvement a été laissé de côté), \"signs\", \"first\" et \"remedy\".",
+            "`--json` gives \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signs by terms of use), \"undrawn\" (handshapes without a picture), \"armless\" (signs whose movement has no arms to show), \"cut\" (signs whose movement is cut), \"without_pairs\" (whether there are too many minimal pairs) and \"left_out\", each with \"why\", \"movement\" (whether only that was left out), \"signs\", \"first\" and \"remedy\".",
+            "`--json` donne \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signes par conditions d’utilisation), \"undrawn\" (configurations sans image), \"armless\" (signes dont le mouvement n’a pas de bras à montrer), \"cut\" (signes dont le mouvement est coupé), \"without_pairs\" (s’il y a trop de paires minimales) et \"left_out\", chacun avec \"why\", \"movement\" (si seul le mouvement a été laissé de côté), \"signs\", \"first\" et \"remedy\".",
         ),
         (
             "The signs, as a query for their tokens as in `chereme search`; all signs without it",
@@ -165,6 +181,18 @@ pub(super) const WORDS: Words = Words {
         (
             "handshapes without a picture: {n}; their values have no posture",
             "configurations sans image : {n} ; leurs valeurs n’ont pas de posture",
+        ),
+        (
+            "signs whose movement has no arms to show: {n}",
+            "signes dont le mouvement n’a pas de bras à montrer : {n}",
+        ),
+        (
+            "movement cut after 3600 frames: {glosses}",
+            "mouvement coupé après 3600 images : {glosses}",
+        ),
+        (
+            "minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields",
+            "les paires minimales sont laissées de côté : il y en a plus de 5 000 000, car les signes sont codés dans peu de champs",
         ),
         (
             "without movement: {signs} ({first}): {why}",

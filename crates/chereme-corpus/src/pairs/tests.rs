@@ -279,3 +279,15 @@ fn a_sign_with_two_citation_forms_is_one_entry_and_no_homonym_of_itself() {
         found.homonym_signs - found.homonym_groups
     );
 }
+
+#[test]
+fn codings_with_too_many_pairs_have_none() {
+    let coded = |count: usize| -> Vec<(String, BTreeMap<String, String>)> {
+        let value = |at: usize| BTreeMap::from([("placement".to_owned(), format!("v{at}"))]);
+        (0..count).map(|at| (format!("S{at}"), value(at))).collect()
+    };
+    let few = of_codings(&coded(40)).expect("few pairs");
+    assert_eq!(few.total, 40 * 39 / 2);
+    // All of them differ in their only field.
+    assert!(of_codings(&coded(3300)).is_none());
+}

@@ -60,6 +60,8 @@ pub(super) struct Entries {
     pub(super) still: Vec<(String, Withheld)>,
     /// The number of signers.
     pub(super) people: usize,
+    /// Whether there are too many minimal pairs to list them.
+    pub(super) without_pairs: bool,
 }
 
 /// Collects the signs of the tokens that answer a query, of all signs without one.
@@ -79,6 +81,7 @@ pub(super) fn collect(
         withheld: Vec::new(),
         still: Vec::new(),
         people: 0,
+        without_pairs: false,
     };
     let mut people: BTreeMap<(bool, i64), usize> = BTreeMap::new();
     for (gloss, tokens) in asked {
@@ -125,7 +128,7 @@ pub(super) fn collect(
         });
     }
     found.people = people.len();
-    add_pairs(&mut found.all)?;
+    found.without_pairs = !add_pairs(&mut found.all);
     Ok(found)
 }
 
@@ -217,12 +220,15 @@ fn has_body(corpus: &Corpus, recording: i64) -> Result<bool> {
     Ok(recordings::body_track(corpus.store.read(), recording)?.is_some())
 }
 
-fn add_pairs(entries: &mut [Entry]) -> Result<()> {
+/// Adds the minimal pairs; returns whether there are few enough of them.
+fn add_pairs(entries: &mut [Entry]) -> bool {
     let codings: Vec<(String, BTreeMap<String, String>)> = entries
         .iter()
         .map(|it| (it.gloss.clone(), it.coding.clone()))
         .collect();
-    let found = pairs::of_codings(&codings)?;
+    let Some(found) = pairs::of_codings(&codings) else {
+        return false;
+    };
     let places: BTreeMap<&str, usize> = codings
         .iter()
         .enumerate()
@@ -239,5 +245,5 @@ fn add_pairs(entries: &mut [Entry]) -> Result<()> {
             }
         }
     }
-    Ok(())
+    true
 }

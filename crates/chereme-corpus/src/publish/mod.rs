@@ -76,6 +76,12 @@ pub struct Published {
     pub terms: BTreeMap<String, usize>,
     /// The number of handshapes without a picture, because their values have no posture.
     pub undrawn: usize,
+    /// The number of signs whose movement may be shown, but moves no arms.
+    pub armless: usize,
+    /// The signs whose movement is cut after 3,600 frames.
+    pub cut: Vec<String>,
+    /// Whether minimal pairs are left out, because there are too many of them.
+    pub without_pairs: bool,
     /// The signs that were left out, by reason.
     pub left_out: Vec<LeftOut>,
 }
@@ -94,6 +100,19 @@ pub struct LeftOut {
     /// The remedy.
     #[serde(serialize_with = "as_text")]
     pub remedy: Remedy,
+}
+
+/// The result of writing pages, data and pictures.
+#[derive(Default)]
+struct Written {
+    /// The number of signs that move.
+    moving: usize,
+    /// The number of handshapes without a picture.
+    undrawn: usize,
+    /// The number of signs whose movement moves no arms.
+    armless: usize,
+    /// The signs whose movement is cut.
+    cut: Vec<String>,
 }
 
 fn as_text<S: serde::Serializer>(remedy: &Remedy, out: S) -> std::result::Result<S::Ok, S::Error> {
@@ -140,7 +159,8 @@ impl Corpus {
             return Err(Error::wrong(text).advise("choose fewer with a query"));
         }
         let mut folder = Folder::begin(to)?;
-        let (moving, undrawn) = self.write_dictionary(&mut folder, &found, options, progress)?;
+        let written = self.write_dictionary(&mut folder, &found, options, progress)?;
+        let moving = written.moving;
         let mut terms: BTreeMap<String, usize> = BTreeMap::new();
         for entry in &found.all {
             for it in &entry.terms {
@@ -161,20 +181,22 @@ impl Corpus {
             files,
             bytes,
             terms,
-            undrawn,
+            undrawn: written.undrawn,
+            armless: written.armless,
+            cut: written.cut,
+            without_pairs: found.without_pairs,
             left_out,
         })
     }
 
-    /// Writes pages, data and pictures, and returns the number of signs that move, and that of handshapes without a
-    /// picture.
+    /// Writes pages, data and pictures.
     fn write_dictionary(
         &self,
         folder: &mut Folder,
         found: &Entries,
         options: &PublishOptions,
         progress: &mut Progress<'_>,
-    ) -> Result<(usize, usize)> {
+    ) -> Result<Written> {
         let inventories = inventories::load(self.store.read())?;
         let site = Site {
             title: options.title.as_deref().unwrap_or("Signs · Signes"),
@@ -183,6 +205,7 @@ impl Corpus {
         };
         let mut bodies: Vec<(Skeleton, String, Body, PortableBody)> = Vec::new();
         let mut moving = vec![false; found.all.len()];
+        let mut written = Written::default();
         for (at, entry) in found.all.iter().enumerate() {
             progress.report(Step {
                 task: "writing signs",
@@ -190,10 +213,16 @@ impl Corpus {
                 total: Some(found.all.len() as u64),
                 unit: Unit::Items,
             })?;
-            let body = match entry.moves {
-                Moves::Public => self.write_movement(folder, entry, &mut bodies)?,
-                Moves::Withheld | Moves::Never => None,
-            };
+            let mut body = None;
+            if entry.moves == Moves::Public {
+                match self.write_movement(folder, entry, &mut bodies)? {
+                    Some((name, is_cut)) => {
+                        body = Some(name);
+                        written.cut.extend(is_cut.then(|| entry.gloss.clone()));
+                    }
+                    None => written.armless += 1,
+                }
+            }
             moving[at] = body.is_some();
             let page = site.sign(entry, &found.all, body.as_deref());
             folder.write(&format!("sign/{}/index.html", entry.name), page.as_bytes())?;
@@ -206,22 +235,23 @@ impl Corpus {
         folder.write("list.html", site.list(&found.all).as_bytes())?;
         folder.write("index.html", site.index().as_bytes())?;
         let shapes = data["facets"]["h"].as_array();
-        let undrawn = shapes.map_or(0, |it| {
+        written.undrawn = shapes.map_or(0, |it| {
             it.iter().filter(|it| it.get("pic").is_none()).count()
         });
-        Ok((moving.iter().filter(|it| **it).count(), undrawn))
+        written.moving = moving.iter().filter(|it| **it).count();
+        Ok(written)
     }
 
-    /// Writes the movement and the still picture of a sign, and returns the name of its body; nothing if its skeleton
-    /// has no arms or its track cannot be shown.
+    /// Writes the movement and the still picture of a sign, and returns the name of its body, and whether its movement is
+    /// cut; nothing if its skeleton has no arms or its movement no frames.
     fn write_movement(
         &self,
         folder: &mut Folder,
         entry: &Entry,
         bodies: &mut Vec<(Skeleton, String, Body, PortableBody)>,
-    ) -> Result<Option<String>> {
+    ) -> Result<Option<(String, bool)>> {
         let moving = self.movement(&Address::Token(entry.token.id))?;
-        let clip = motion::shown(&moving.clip)?;
+        let (clip, is_cut) = motion::shown(&moving.clip)?;
         if clip.frames() == 0 {
             return Ok(None);
         }
@@ -253,7 +283,7 @@ impl Corpus {
         let still = thumbnail(&clip, &moving.anatomy, STILL, &style)
             .map_err(|error| Error::wrong(error.to_string()))?;
         folder.write(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
-        Ok(Some(name.clone()))
+        Ok(Some((name.clone(), is_cut)))
     }
 }
 

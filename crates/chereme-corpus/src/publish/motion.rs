@@ -13,7 +13,7 @@ use crate::page::base64;
 
 /// The most frames per second that the page gets.
 const FASTEST: u32 = 60;
-/// The most frames of a sign: a minute.
+/// The most frames of a sign: a minute at that rate.
 const MOST: usize = 3600;
 /// Whole numbers per unit of a quaternion's part: half a step is 0.007 degrees.
 const TURN: f32 = 8192.0;
@@ -22,8 +22,8 @@ const OFF: f32 = 5000.0;
 /// Whole numbers per metre of the surface.
 const PLACE: f32 = 10_000.0;
 
-/// Returns the clip in the frames that the page gets: at most sixty a second, and a minute.
-pub(super) fn shown(clip: &Clip) -> Result<Clip> {
+/// Returns the clip in the frames that the page gets, at most sixty a second and 3,600 in all, and whether it is cut.
+pub(super) fn shown(clip: &Clip) -> Result<(Clip, bool)> {
     let fast = clip.rate().per_second() > f64::from(FASTEST) + 0.5;
     let rate = Rate::new(FASTEST, 1).map_err(|error| Error::wrong(error.to_string()))?;
     let clip = if fast {
@@ -32,7 +32,7 @@ pub(super) fn shown(clip: &Clip) -> Result<Clip> {
         clip.clone()
     };
     let frames = clip.frames().min(MOST);
-    Ok(clip.slice(0..frames))
+    Ok((clip.slice(0..frames), frames < clip.frames()))
 }
 
 /// Returns the surface of a body as JSON.
@@ -266,11 +266,31 @@ mod tests {
     }
 
     #[test]
+    fn a_long_movement_is_cut_and_known_to_be() {
+        let sign = starter_signs().next().expect("a sign").expect("a sign");
+        let (whole, is_cut) = shown(&sign.clip).expect("frames");
+        assert!(!is_cut && whole.frames() == sign.clip.frames());
+        let long = |frames: usize| {
+            let skeleton = sign.clip.skeleton().clone();
+            let channels = skeleton.joints().iter().map(|_| chereme_motion::Channel {
+                rotations: vec![chereme_motion::glam::DQuat::IDENTITY; frames],
+                translations: None,
+            });
+            let rate = Rate::new(30, 1).expect("a rate");
+            Clip::new(skeleton.clone(), rate, channels.collect()).expect("a clip")
+        };
+        for (frames, cut) in [(MOST, false), (MOST + 1, true)] {
+            let (clip, is_cut) = shown(&long(frames)).expect("frames");
+            assert_eq!((clip.frames(), is_cut), (MOST, cut));
+        }
+    }
+
+    #[test]
     fn coded_movement_is_within_a_tenth_of_a_degree_and_a_millimetre() {
         let (mut angle, mut distance) = (0.0_f32, 0.0_f32);
         for sign in starter_signs().take(3) {
             let sign = sign.expect("a sign");
-            let clip = shown(&sign.clip).expect("frames");
+            let (clip, _) = shown(&sign.clip).expect("frames");
             let body = Body::new(clip.skeleton(), &sign.anatomy);
             let portable = body.portable(clip.skeleton()).expect("two arms");
             let keyed = |frame: usize| body.bone_motions(&portable, &clip.model_pose(frame));

@@ -164,8 +164,9 @@ pub(super) fn of_hands(forms: &Forms) -> Vec<StatsFinding> {
     let given = |row: &Form, at: Option<usize>| at.is_some_and(|at| !row.cells[at].is_empty());
     let one_handed = Some(SignType::OneHanded);
     let mut findings = Vec::new();
+    let slips = slips(forms, types);
     for (value, count) in counts(forms, types) {
-        let is_slip = slips(forms, types).iter().any(|it| it.value == value);
+        let is_slip = slips.iter().any(|it| it.value == value);
         if sign_type(value).is_none() && !is_slip {
             let own = rows(&|row, _| row.cells[types] == value);
             let name = &forms.fields[types].name;

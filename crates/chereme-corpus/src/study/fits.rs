@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Participant};
 use super::files::Findings;
 use super::plan::{Plan, QuestionKind, Role};
+use crate::consent::is_day;
 
 /// The largest number of answers of a participant.
 const MOST_ANSWERS: usize = 100_000;
@@ -227,18 +228,9 @@ fn is_code(text: &str) -> bool {
 
 /// Returns a day as `2026-11-27`; an empty text if `text` is no day.
 pub(super) fn day(text: &str) -> String {
-    let digits = |text: &str| text.bytes().all(|it| it.is_ascii_digit());
-    let parts: Vec<&str> = text.split('-').collect();
-    match parts.as_slice() {
-        [year, month, day] if (year.len(), month.len(), day.len()) == (4, 2, 2) => {
-            let whole = digits(year) && digits(month) && digits(day);
-            if whole {
-                text.to_owned()
-            } else {
-                String::new()
-            }
-        }
-        _ => String::new(),
+    match is_day(text) {
+        true => text.to_owned(),
+        false => String::new(),
     }
 }
 

@@ -57,6 +57,10 @@ pub fn has(window: &Window<'_>, label: &str) -> bool {
     window.query_all_by_label(label).next().is_some()
 }
 
+pub fn contains(window: &Window<'_>, label: &str) -> bool {
+    window.query_all_by_label_contains(label).next().is_some()
+}
+
 pub fn click(window: &mut Window<'_>, label: &str) {
     window.get_by_label(label).click();
     window.step();

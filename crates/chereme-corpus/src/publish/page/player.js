@@ -187,7 +187,7 @@ function makePlayer(canvas, body, it) {
   gl.enable(gl.DEPTH_TEST);
   const tracks = readMotion(body, it);
   const numbers = new Float32Array(12 * body.bones.length);
-  const uniform = (name) => gl.getUniformLocation(program, name);
+  const uniforms = Object.fromEntries(["eye", "right", "up", "ahead", "lens"].map((name) => [name, gl.getUniformLocation(program, name)]));
   const player = { canvas, playing: false, speed: 1, mirror: false, camera: "front", time: (it.frames - 1) / 2 };
   player.draw = () => {
     posed(body, tracks, it.frames, player.time).forEach((motion, index) => numbers.set(rows(motion).flat(), 12 * index));
@@ -204,11 +204,11 @@ function makePlayer(canvas, body, it) {
     gl.viewport(0, 0, canvas.width, canvas.height);
     gl.clearColor(0.957, 0.949, 0.933, 1);
     gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
-    gl.uniform3fv(uniform("eye"), camera.eye);
-    gl.uniform3fv(uniform("right"), right);
-    gl.uniform3fv(uniform("up"), up);
-    gl.uniform3fv(uniform("ahead"), ahead);
-    gl.uniform4f(uniform("lens"), (player.mirror ? -zoom : zoom) / aspect, zoom, Math.max(0.05, far - 2.5), far + 2.5);
+    gl.uniform3fv(uniforms.eye, camera.eye);
+    gl.uniform3fv(uniforms.right, right);
+    gl.uniform3fv(uniforms.up, up);
+    gl.uniform3fv(uniforms.ahead, ahead);
+    gl.uniform4f(uniforms.lens, (player.mirror ? -zoom : zoom) / aspect, zoom, Math.max(0.05, far - 2.5), far + 2.5);
     gl.drawElements(gl.TRIANGLES, surface.corners.length, gl.UNSIGNED_INT, 0);
   };
   let before = null;
