@@ -110,7 +110,7 @@ tuned_numbers! {
         rather: [f64; 2],
         parts: f64,
         step: f64,
-        unnamed: f64,
+        unnamed: [f64; 2],
         contact: f64,
         touches: f64,
     }

@@ -42,7 +42,7 @@ impl Together {
     /// Returns the penalty (nepers) of the notation itself.
     pub(in crate::transcribe) fn cost(&self) -> f64 {
         match (self.named, self.stated) {
-            (false, _) => tuned().together.unnamed,
+            (false, _) => tuned().together.unnamed[usize::from(self.contact != Contact::Touch)],
             (true, true) => tuned().together.parts + tuned().together.step * ranks(self),
             (true, false) => 0.0,
         }
