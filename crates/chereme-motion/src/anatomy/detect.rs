@@ -111,7 +111,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn labelled(&self, side: Option<Side>, word: Word) -> Vec<usize> {
+    pub(super) fn labelled(&self, side: Option<Side>, word: Word) -> Vec<usize> {
         let want = Some(Label { side, word });
         (0..self.labels.len())
             .filter(|&j| self.labels[j] == want)
@@ -124,7 +124,7 @@ impl<'a> Finder<'a> {
 
     /// Assigns `part` to the first joint with one of the words, in the order of `words`. Other joints with the same
     /// word make the part ambiguous, unless they are below that joint.
-    fn take(&mut self, part: Part, words: &[Word]) {
+    pub(super) fn take(&mut self, part: Part, words: &[Word]) {
         let side = part.side();
         let all = words.iter().map(|&word| self.labelled(side, word));
         let Some(all) = all.into_iter().find(|all| !all.is_empty()) else {
@@ -144,7 +144,7 @@ impl<'a> Finder<'a> {
     }
 
     fn head_and_trunk(&mut self) {
-        self.take(Part::Hips, &[Word::Hips, Word::Root]);
+        self.take(Part::Hips, &[Word::Hips]);
         self.take(Part::Neck, &[Word::Neck]);
         self.take(Part::Head, &[Word::Head]);
         self.take(Part::Jaw, &[Word::Jaw]);
