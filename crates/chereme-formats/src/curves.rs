@@ -15,6 +15,7 @@ use std::fmt::Write as _;
 use chereme_motion::column::{Column, Number};
 use chereme_motion::{Curve, Curves, Instant, Rate, Times};
 
+use crate::faces::System;
 use crate::finding::Finding;
 use crate::keypoints;
 use crate::scene::near_usual;
@@ -32,7 +33,7 @@ pub enum CurveFile {
     LiveLink,
     /// The CSV of OpenFace 2: gaze, head, landmarks and action units.
     OpenFace,
-    /// JSON of MediaPipe's face landmarker: frames of named scores.
+    /// JSON of MediaPipe's face landmarker, frames of named scores, or of ARKit's shapes.
     MediaPipe,
     /// MPEG-4 facial animation parameters as text.
     Fap,
@@ -54,7 +55,8 @@ impl CurveFile {
         if start.starts_with(['{', '[']) {
             let named = start.contains("\"categoryName\"")
                 && !keypoints::has_sides(&start.to_ascii_lowercase());
-            let is_scores = named || start.contains("\"faceBlendshapes\"");
+            let is_scores =
+                named || start.contains("\"faceBlendshapes\"") || mediapipe::names_shapes(start);
             return is_scores.then_some(Self::MediaPipe);
         }
         let shown = start.lines().map(str::trim);
@@ -76,6 +78,10 @@ impl CurveFile {
                 Some(Self::OpenFace)
             }
             first if cells.len() > 1 && table::unit_of_time(first).is_some() => Some(Self::Plain),
+            // Without their rate frames are no times; the reader says so of a face.
+            "frame" | "frames" if System::of_names(cells.iter().copied()).is_some() => {
+                Some(Self::Plain)
+            }
             _ => None,
         }
     }
@@ -95,6 +101,11 @@ pub enum Error {
         "this is no table of channels: its first column is neither a timecode, a time nor a frame number"
     )]
     Unknown,
+    /// The first column counts frames, and nothing states their rate.
+    #[error(
+        "line 1: the first column counts frames, whose rate is not stated; write it into its title, such as frame [30 fps]"
+    )]
+    NoRate,
     /// A row has another number of cells than the header.
     #[error("line {line}: the row has {found} cells, and the header has {expected}")]
     Width {

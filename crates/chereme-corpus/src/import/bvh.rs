@@ -2,6 +2,7 @@
 
 mod again;
 mod root;
+mod unread;
 
 use std::fs::File;
 use std::sync::Arc;
@@ -348,7 +349,8 @@ fn understand(
             Remedy::choice(Choice::Unit, "say the unit with --unit, such as --unit cm"),
         ));
     }
-    let doubted = guess.confidence < SURE && guess.unit_name != "unknown";
+    report.findings.extend(unread::unusual(&guess, options));
+    let doubted = guess.axes_confidence < SURE && guess.unit_name != "unknown";
     if let Some(reason) = guess
         .reasons
         .last()
@@ -485,6 +487,8 @@ pub(super) fn describe_anatomy(report: &mut FileReport, skeleton: &Skeleton, ana
             )),
         });
     }
+    report.findings.extend(unread::hands(anatomy));
+    report.findings.extend(unread::digits(anatomy));
     report.findings.extend(odd_tips(skeleton, anatomy));
     let markers: Vec<String> = anatomy.markers().iter().map(|&joint| name(joint)).collect();
     let body = BodyRead {

@@ -39,7 +39,7 @@ pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> R
     })
 }
 
-/// Reads a table: curves if its first column is a time, tiers if ELAN exported it, otherwise a lexicon.
+/// Reads a table: curves if its first column is a time, tiers if its rows are annotations, otherwise a lexicon.
 pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match head(job.path)? {
         head if curves::CurveFile::of(&head).is_some() => import_curves(job, progress),
@@ -60,7 +60,8 @@ pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Reads a text file: signs that another program exported as JSON, tiers that ELAN exported, otherwise lines of HamNoSys.
+/// Reads a text file: signs that another program exported as JSON, tiers if its rows are annotations, otherwise lines of
+/// HamNoSys.
 pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match head(job.path)? {
         head if is_export_of_signs(&head) => lexicon::import(job, progress),
@@ -69,7 +70,7 @@ pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Returns whether a text file is an export of another program: signs of SLP-AA as JSON, or tiers of ELAN.
+/// Returns whether a text file is an export of another program: signs of SLP-AA as JSON, or annotations.
 pub(super) fn is_export(path: &Path) -> bool {
     let head = head(path).unwrap_or_default();
     is_export_of_signs(&head) || annotations::is_export(&head)
@@ -78,7 +79,7 @@ pub(super) fn is_export(path: &Path) -> bool {
 /// The kind of a table of annotations in `source_file.kind`.
 pub(super) const TIERS: &str = "annotation table";
 
-/// Reads the tiers that ELAN exported as a table; refuses those of an annotation file beside it, which says more.
+/// Reads the tiers of a table of annotations; refuses those of an annotation file beside it, which says more.
 fn import_tiers(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     job.kind = TIERS;
     for ending in [".eaf", ".elan"] {
@@ -291,7 +292,7 @@ fn facing(
     let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
     let found = anatomy.convention(scene.clip.skeleton(), pose.as_ref());
     let axes = found.convention.axes;
-    let agrees = axes.up() == stated.axes.up() && found.confidence >= bvh::SURE;
+    let agrees = axes.up() == stated.axes.up() && found.axes_confidence >= bvh::SURE;
     let metres_per_unit = options.metres_per_unit.unwrap_or_else(|| {
         let stature = anatomy.measures().map(|it| it.stature * stated.metres_per_unit);
         let step = stature.map_or(1.0, scale_of_body);

@@ -167,8 +167,8 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["csv", "tsv"],
         kind: "lexicon",
         holds: Text::new(
-            "lexicons, faces, annotations that ELAN exported",
-            "lexiques, visages, annotations exportées par ELAN",
+            "lexicons, faces, tables of annotations",
+            "lexiques, visages, tables d’annotations",
         ),
         looks: always,
         keeps_inventories: false,
@@ -186,8 +186,8 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["hns", "txt"],
         kind: "lexicon",
         holds: Text::new(
-            "lines of HamNoSys, annotations that ELAN exported",
-            "lignes de HamNoSys, annotations exportées par ELAN",
+            "lines of HamNoSys, tables of annotations",
+            "lignes de HamNoSys, tables d’annotations",
         ),
         looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export(path),
         keeps_inventories: false,

@@ -183,6 +183,54 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "sa première ligne porte l’heure {time} s du jour ; c’est {start} s ici",
     ),
     (
+        "nothing about the {side} hand can be read from this movement, because these joints were not found: {parts}",
+        "rien de la main {side} ne peut être lu dans ce mouvement, car ces articulations n’ont pas été trouvées : {parts}",
+    ),
+    (
+        "the {side} hand has no joints of these digits, and a handshape read from it is a guess about them: {digits}",
+        "la main {side} n’a pas d’articulations de ces doigts, et une configuration lue sur elle les devine : {digits}",
+    ),
+    (
+        "the unit of length is uncertain; {unit} is assumed ({reason})",
+        "l’unité de longueur est incertaine ; {unit} est supposé ({reason})",
+    ),
+    (
+        "the columns {first} and {second} are both taken for {meaning}; signs have the values of both",
+        "les colonnes {first} et {second} sont prises toutes deux pour {meaning} ; les signes ont les valeurs des deux",
+    ),
+    (
+        "say in a mapping what each is: {mapping}",
+        "dites dans une correspondance ce qu’est chacune : {mapping}",
+    ),
+    (
+        "the times are frames, and a table states no rate; import the recording, and then its annotations with `annotate CORPUS --in RECORDING from FILE`",
+        "les temps sont des images, et une table n’indique pas de cadence ; importez l’enregistrement, puis ses annotations avec `annotate CORPUS --in RECORDING from FILE`",
+    ),
+    (
+        "the shapes should be shares from 0 to 1 and reach {n}: they are read as percent",
+        "les formes devraient être des parts de 0 à 1 et atteignent {n} : elles sont lues en pour cent",
+    ),
+    (
+        "the first column counts frames, whose rate is not stated; write it into its title, such as frame [30 fps]",
+        "la première colonne compte des images, dont la cadence n’est pas indiquée ; écrivez-la dans son titre, comme frame [30 fps]",
+    ),
+    (
+        "the frame {frame} has {n} weights for {names} names",
+        "l’image {frame} a {n} poids pour {names} noms",
+    ),
+    (
+        "no row could be read; {fault}",
+        "aucune ligne n’a pu être lue ; {fault}",
+    ),
+    (
+        "{text} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12; the rate of hh:mm:ss:ff is not stated: export the times as hh:mm:ss.ms",
+        "{text} n’est pas un temps : écrivez 1.5, 1.5s, 1500ms, 0:01.500 ou f12 ; la cadence de hh:mm:ss:ff n’est pas indiquée : exportez les temps en hh:mm:ss.ms",
+    ),
+    (
+        "{text} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12; write a point before the decimals",
+        "{text} n’est pas un temps : écrivez 1.5, 1.5s, 1500ms, 0:01.500 ou f12 ; écrivez un point devant les décimales",
+    ),
+    (
         "no column is called a gloss; {column} was taken for it",
         "aucune colonne ne s’appelle glose ; {column} a été prise pour elle",
     ),

@@ -1,5 +1,7 @@
-//! JSON of MediaPipe's face landmarker: one object a frame with named scores; and the text form of its list of scores.
+//! JSON of face trackers: MediaPipe's, one object a frame with named scores, and the text form of its list of scores;
+//! objects of shapes by name; and names with a row of weights for each frame.
 
+use chereme_motion::Rate;
 use chereme_motion::column::Number;
 use serde_json::Value;
 
@@ -56,12 +58,76 @@ fn read_text(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
     }
 }
 
+/// Keys under which a frame holds its shapes by name.
+const SHAPES: [&str; 4] = ["faceBlendshapes", "blendShapes", "blendshapes", "shapes"];
+
+/// Returns whether JSON that begins so has shapes of a face as keys, or as a list of names.
+pub(super) fn names_shapes(start: &str) -> bool {
+    let lower = start.to_ascii_lowercase();
+    ["\"jawopen\"", "\"browinnerup\""]
+        .iter()
+        .all(|name| lower.contains(name))
+}
+
+/// Returns the rate that a document states.
+fn stated_rate(document: &Value) -> Option<Rate> {
+    let keys = ["fps", "exportFps", "frameRate", "frame_rate"];
+    let number = keys.iter().find_map(|key| document.get(key)?.as_f64());
+    rate_of(number?)
+}
+
+/// Reads names of shapes and a row of weights for each frame; `None` if the document has another form.
+fn matrix(document: &Value) -> Option<Result<Channels, Error>> {
+    let list = |keys: &[&str]| keys.iter().find_map(|key| document.get(key)?.as_array());
+    let names = list(&["facsNames", "names", "blendShapeNames", "blendshapeNames"])?;
+    let rows = list(&["weightMat", "weights", "blendShapeWeights"])?;
+    let names: Option<Vec<String>> = names
+        .iter()
+        .map(|name| Some(name.as_str()?.to_owned()))
+        .collect();
+    let mut channels = Channels::new(names?);
+    for (frame, row) in rows.iter().enumerate() {
+        let row = row.as_array()?;
+        if row.len() != channels.names.len() {
+            let (found, names) = (row.len(), channels.names.len());
+            return Some(Err(Error::Json(format!(
+                "the frame {frame} has {found} weights for {names} names"
+            ))));
+        }
+        for (column, weight) in channels.columns.iter_mut().zip(row) {
+            let number = weight.as_number().map(ToString::to_string);
+            column.push(number.and_then(|text| Number::parse(text.as_bytes()).ok()));
+        }
+    }
+    Some(Ok(channels))
+}
+
+/// Returns the clock of frames without times.
+fn even_clock(document: &Value, findings: &mut Findings) -> Result<Clock, Error> {
+    if let Some(rate) = stated_rate(document) {
+        return Ok(Clock::Rate(rate));
+    }
+    findings.push(
+        Finding::warning(
+            None,
+            format!("its frames have no times; {USUAL_RATE} a second are taken"),
+        )
+        .with_remedy("write \"timestampMs\" into each frame"),
+    );
+    Ok(Clock::Rate(rate_of(USUAL_RATE).ok_or(Error::Empty)?))
+}
+
 pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
     if !text.trim_start().starts_with(['{', '[']) {
         return read_text(text, findings);
     }
     let document: Value = serde_json::from_str(text)
         .map_err(|error| Error::Json(format!("line {}: {error}", error.line())))?;
+    if let Some(read) = matrix(&document) {
+        let mut channels = read?;
+        channels.clock = even_clock(&document, findings)?;
+        return Ok(channels);
+    }
     let frames = match &document {
         Value::Array(frames) => frames.iter().collect(),
         Value::Object(object) => match object.get("frames") {
@@ -114,16 +180,7 @@ pub(super) fn read(text: &str, findings: &mut Findings) -> Result<Channels, Erro
     let known: Option<Vec<f64>> = times.into_iter().collect();
     channels.clock = match known.filter(|times| times.windows(2).all(|pair| pair[1] > pair[0])) {
         Some(times) => Clock::Seconds(times),
-        None => {
-            findings.push(
-                Finding::warning(
-                    None,
-                    format!("its frames have no times; {USUAL_RATE} a second are taken"),
-                )
-                .with_remedy("write \"timestampMs\" into each frame"),
-            );
-            Clock::Rate(rate_of(USUAL_RATE).ok_or(Error::Empty)?)
-        }
+        None => even_clock(&document, findings)?,
     };
     Ok(channels)
 }
@@ -140,7 +197,8 @@ fn has_landmarks(frame: &Value) -> bool {
 
 /// Returns the named scores of a frame, as the file writes the numbers.
 fn scores(frame: &Value) -> Vec<(&str, String)> {
-    let shapes = frame.get("faceBlendshapes").unwrap_or(frame);
+    let shapes = SHAPES.iter().find_map(|key| frame.get(key));
+    let shapes = shapes.unwrap_or(frame);
     let first = match shapes {
         Value::Array(faces)
             if faces
@@ -152,6 +210,14 @@ fn scores(frame: &Value) -> Vec<(&str, String)> {
         other => other,
     };
     let categories = first.get("categories").unwrap_or(first);
+    if let Value::Object(shapes) = categories {
+        let named = shapes
+            .iter()
+            .filter(|(name, _)| !TIMES.contains(&name.as_str()));
+        let pairs =
+            named.filter_map(|(name, score)| Some((&**name, score.as_number()?.to_string())));
+        return pairs.collect();
+    }
     let Value::Array(categories) = categories else {
         return Vec::new();
     };
@@ -169,5 +235,17 @@ fn scores(frame: &Value) -> Vec<(&str, String)> {
 fn time(frame: &Value) -> Option<f64> {
     let named = |key: &str| frame.get(key).and_then(Value::as_f64);
     let millis = named("timestampMs").or(named("timestamp_ms"));
-    millis.map(|millis| millis / 1000.0).or(named("time"))
+    let seconds = named("time").or(named("timeCode"));
+    millis.map(|millis| millis / 1000.0).or(seconds)
 }
+
+/// Keys of a frame that are no shapes.
+const TIMES: [&str; 7] = [
+    "timestampMs",
+    "timestamp_ms",
+    "timestamp",
+    "time",
+    "timeCode",
+    "frame",
+    "index",
+];

@@ -350,7 +350,7 @@ pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Err
         .header
         .first()
         .and_then(|title| unit_of_time(title))
-        .ok_or(Error::Unknown)?;
+        .ok_or(Error::NoRate)?;
     let mut channels = channels(&table, &[0])?;
     // A unit stands behind the name in square brackets.
     let known = [

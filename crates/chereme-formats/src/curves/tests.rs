@@ -489,3 +489,37 @@ fn faces_of_others_keep_every_number() {
         "{least} {most}"
     );
 }
+
+#[test]
+fn frames_of_a_face_need_their_rate() {
+    let table =
+        |first: &str| format!("{first},jawOpen,browInnerUp,eyeBlinkLeft\n0,0,0,0\n1,0.5,0,0\n");
+    let error = read(table("frame").as_bytes()).expect_err("no rate");
+    assert!(error.to_string().contains("frame [30 fps]"), "{error}");
+    assert!(read(table("frame [30 fps]").as_bytes()).is_ok());
+    assert_eq!(CurveFile::of(b"frame,gloss,handshape\n1,BOL,B\n"), None);
+}
+
+#[test]
+fn shapes_by_name_and_rows_of_weights_are_read_from_json() {
+    let list = r#"[{"time":0,"blendShapes":{"jawOpen":0,"browInnerUp":0.5}},
+        {"time":0.04,"blendShapes":{"jawOpen":0.6,"browInnerUp":0.5}}]"#;
+    let frames = r#"{"fps":25,"frames":[{"jawOpen":0,"browInnerUp":0.5},{"jawOpen":0.6,"browInnerUp":0.5}]}"#;
+    let rows = r#"{"exportFps":25.0,"numFrames":2,"facsNames":["jawOpen","browInnerUp"],
+        "weightMat":[[0,0.5],[0.6,0.5]]}"#;
+    for text in [list, frames, rows] {
+        let (curves, _, findings) = curves(text);
+        assert_eq!(values(&curves, "jawOpen"), [Some(0.0), Some(0.6)], "{text}");
+        assert_eq!(curves.curves().len(), 2, "{text}");
+        assert_eq!(curves.times().instant(1).micros(), 40_000, "{text}");
+        assert!(findings.is_empty(), "{findings:?}");
+    }
+    let short = r#"{"names":["jawOpen","browInnerUp"],"weights":[[0,0.5],[1]]}"#;
+    let error = read(short.as_bytes()).expect_err("a short row");
+    assert!(
+        error
+            .to_string()
+            .contains("frame 1 has 1 weights for 2 names"),
+        "{error}"
+    );
+}

@@ -88,6 +88,9 @@ pub struct System {
     /// Whether each channel is a code of SiGML, whose posture `schema/notation/face.json` defines.
     #[serde(default)]
     pub expressions: bool,
+    /// Whether the channels in the formulas of [`Self::house`] are shares from 0 to 1.
+    #[serde(default)]
+    shares: bool,
     /// Numbers of a face for which the system has no channels.
     pub unknown: Vec<String>,
     /// The losses of the mapping.
@@ -209,6 +212,16 @@ impl System {
                 columns.entry(name).or_insert(whole);
             }
         }
+        let mut percent = None;
+        if self.shares {
+            let of_head = Self::named_in(self.head.values().chain(self.place.values()));
+            let (turns, mut shapes) = columns
+                .into_iter()
+                .partition(|(name, _)| of_head.contains(name));
+            percent = from_percent(&mut shapes);
+            columns = turns;
+            columns.extend(shapes);
+        }
         let frames = curves.frames();
         let channel = |name: &str| columns.get(&plain(name)).map(Vec::as_slice);
         let of = |formulas: &BTreeMap<String, String>, name: &str| {
@@ -231,6 +244,7 @@ impl System {
             .as_ref()
             .is_some_and(|all| all.iter().flatten().all(|it| *it == 0.0));
         let mut findings = self.findings(&known);
+        findings.extend(percent);
         if still {
             let says = "the turns of the head are all 0: the tracker did not record them";
             findings.push(Finding::note(None, says));
@@ -296,19 +310,49 @@ impl System {
     /// Returns the channels that formulas and checks use.
     fn counted(&self) -> BTreeSet<String> {
         let formulas = self.house.values().chain(self.head.values());
-        let formulas = formulas.chain(self.place.values());
+        let mut named = Self::named_in(formulas.chain(self.place.values()));
+        named.extend(self.agree.iter().flatten().map(|name| plain(name)));
+        named
+    }
+
+    /// Returns the channels that formulas name.
+    fn named_in<'a>(formulas: impl Iterator<Item = &'a String>) -> BTreeSet<String> {
         let read: Vec<Formula> = formulas
             .filter_map(|text| Formula::read(text).ok())
             .collect();
-        let named = read.iter().flat_map(Formula::channels).map(plain);
-        let checked = self.agree.iter().flatten().map(|name| plain(name));
-        named.chain(checked).collect()
+        read.iter().flat_map(Formula::channels).map(plain).collect()
     }
 }
 
-/// Returns a name without regard to case and surrounding blanks.
+/// Returns a name without regard to case and surrounding blanks, and with its side in full: `browDown_L` is `browdownleft`.
 fn plain(name: &str) -> String {
-    name.trim().to_lowercase()
+    let name = name.trim().to_lowercase();
+    let sides = [("_l", "left"), ("_r", "right")];
+    let sided = sides.iter().find_map(|(end, side)| {
+        let rest = name.strip_suffix(end)?;
+        Some(format!("{rest}{side}"))
+    });
+    sided.unwrap_or(name)
+}
+
+/// The value above which numbers that should be shares are percent: trackers exceed 1 a little.
+const PERCENT: f64 = 2.0;
+
+/// Divides the channels of shares by 100 if they are percent, and says so.
+fn from_percent(columns: &mut BTreeMap<String, Vec<f64>>) -> Option<Finding> {
+    let all = columns.values().flatten();
+    let most = all.fold(0.0, |most: f64, value| most.max(value.abs()));
+    if most <= PERCENT {
+        return None;
+    }
+    columns
+        .values_mut()
+        .flatten()
+        .for_each(|value| *value /= 100.0);
+    let says = format!(
+        "the shapes should be shares from 0 to 1 and reach {most}: they are read as percent"
+    );
+    Some(Finding::warning(None, says))
 }
 
 /// Fills gaps by linear interpolation between their neighbours; `None` if there are only gaps.

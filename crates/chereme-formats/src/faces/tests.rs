@@ -130,6 +130,35 @@ fn shapes_of_arkit_are_a_face_and_its_brows_have_no_side() {
 }
 
 #[test]
+fn shapes_are_known_by_short_sides_and_as_percent() {
+    let usual = view(&[
+        ("JawOpen", &[0.0, 0.5]),
+        ("BrowInnerUp", &[0.0, 0.8]),
+        ("EyeBlinkLeft", &[0.1, 1.0]),
+        ("EyeBlinkRight", &[0.1, 1.0]),
+        ("HeadYaw", &[0.0, 0.4]),
+        ("HeadPitch", &[0.0, 0.1]),
+        ("HeadRoll", &[0.0, 0.1]),
+    ]);
+    let short = view(&[
+        ("jawOpen", &[0.0, 50.0]),
+        ("browInnerUp", &[0.0, 80.0]),
+        ("eyeBlink_L", &[10.0, 100.0]),
+        ("EYEBLINK_R", &[10.0, 100.0]),
+        ("HeadYaw", &[0.0, 0.4]),
+        ("HeadPitch", &[0.0, 0.1]),
+        ("HeadRoll", &[0.0, 0.1]),
+    ]);
+    assert_eq!(short.known, usual.known);
+    for (a, b) in short.faces.iter().zip(&usual.faces) {
+        let pairs = a.numbers().into_iter().zip(b.numbers());
+        assert!(pairs.into_iter().all(|(a, b)| (a - b).abs() < 1e-12));
+    }
+    assert_eq!(short.head, usual.head);
+    assert!(says(&short, "percent") && !says(&usual, "percent"));
+}
+
+#[test]
 fn parameters_of_mpeg_4_keep_both_sides_and_the_head() {
     let it = view(&[
         ("FAP31", &[300.0]),

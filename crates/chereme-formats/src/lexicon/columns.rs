@@ -2,7 +2,7 @@
 
 use crate::finding::Finding;
 use crate::hns::holds_symbols;
-use crate::roles::{Hands, Mapping, Target, normal};
+use crate::roles::{Hands, Mapping, Target, is_hand, normal, stated_hands};
 use crate::table::Row;
 use crate::tally::Findings;
 use chereme_sign::query::number;
@@ -207,6 +207,7 @@ pub(super) fn meanings(
     findings: &mut Findings,
 ) -> Vec<Column> {
     let mut columns: Vec<Column> = header.iter().map(|title| column(title, mapping)).collect();
+    state_hands(&mut columns);
     for (at, column) in columns.iter_mut().enumerate() {
         if column.why.is_empty() && holds_notation(rows, at) {
             column.meaning = Meaning::Notation;
@@ -215,7 +216,7 @@ pub(super) fn meanings(
         }
         if (1e-9..0.9).contains(&column.confidence)
             && !matches!(column.meaning, Meaning::Note)
-            && measures(rows, at, &column.title)
+            && measures(rows, at, column)
         {
             column.meaning = Meaning::Attribute;
             column.confidence = 0.8;
@@ -261,7 +262,63 @@ pub(super) fn meanings(
         }
     }
     report_attributes(&columns, findings);
+    report_shared(&columns, findings);
     columns
+}
+
+/// Gives columns of a hand's components the hand that their title states: `Configuration MG` is that of the left hand.
+fn state_hands(columns: &mut [Column]) {
+    let titles: Vec<String> = columns
+        .iter()
+        .map(|column| with_parted_words(&column.title))
+        .collect();
+    for (column, stated) in columns.iter_mut().zip(stated_hands(&titles)) {
+        let Some(Hands::One(own)) = stated.filter(|_| column.confidence < 1.0) else {
+            continue;
+        };
+        if let Meaning::Coding {
+            hand,
+            component,
+            feature,
+            ..
+        } = &mut column.meaning
+            && component.is_manual()
+            && !matches!(
+                feature.as_deref(),
+                Some("handedness" | "relation" | "alternating")
+            )
+        {
+            *hand = Some(Hands::One(own));
+        }
+    }
+}
+
+/// Reports columns that hold the same component of the same hand: each sign has the values of all of them.
+fn report_shared(columns: &[Column], findings: &mut Findings) {
+    let mut titles: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    for column in columns {
+        if matches!(column.meaning, Meaning::Coding { .. }) && column.confidence < 1.0 {
+            let same = titles.entry(column.meaning.to_string()).or_default();
+            same.push(&column.title);
+        }
+    }
+    for (meaning, titles) in titles {
+        if let [first, second, ..] = titles[..] {
+            findings.push(
+                Finding::warning(
+                    1,
+                    format!("the columns {first:?} and {second:?} are both taken for {meaning}; signs have the values of both"),
+                )
+                .with_remedy(Remedy::choice(
+                    Choice::TierRoles,
+                    format!("say in a mapping what each is: {{\"columns\": {{{second:?}: \"weak.{meaning}\"}}}}").replace(
+                        "weak.dominant.",
+                        "weak.",
+                    ),
+                )),
+            );
+        }
+    }
 }
 
 /// Returns the column that names the sign: the first gloss column of a mapping, otherwise the first one whose title
@@ -315,10 +372,10 @@ fn report_attributes(columns: &[Column], findings: &mut Findings) {
     });
 }
 
-/// Returns whether a column holds measurements: its cells are numbers, and its title is that of a measurement or some
-/// cells have decimals.
-fn measures(rows: &[Row], column: usize, title: &str) -> bool {
-    let cells = rows.iter().filter_map(|row| row.cells.get(column));
+/// Returns whether a column holds measurements: its cells are numbers, and its title is that of a measurement, or some
+/// cells have decimals, or it would be words.
+fn measures(rows: &[Row], at: usize, column: &Column) -> bool {
+    let cells = rows.iter().filter_map(|row| row.cells.get(at));
     let cells = cells
         .map(|cell| cell.trim())
         .filter(|cell| !cell.is_empty());
@@ -329,7 +386,11 @@ fn measures(rows: &[Row], column: usize, title: &str) -> bool {
         numbers += usize::from(read.is_some());
         parts += usize::from(read.is_some_and(|number| number.fract() != 0.0));
     }
-    let whole = normal(title);
+    let whole = normal(&column.title);
+    let words = matches!(
+        column.meaning,
+        Meaning::Gloss { .. } | Meaning::Translation { .. }
+    );
     let said = whole.split(' ').any(|word| {
         let letters = word.trim_start_matches(|c: char| c.is_ascii_digit());
         MEASURES.iter().any(|measure| match measure.len() {
@@ -338,7 +399,7 @@ fn measures(rows: &[Row], column: usize, title: &str) -> bool {
         })
     });
     // Occasional words, such as NA, stand for missing values.
-    all > 0 && numbers * 10 >= all * 9 && (said || parts > 0)
+    all > 0 && numbers * 10 >= all * 9 && (said || words || parts > 0)
 }
 
 /// Returns the column that names the sign if no column is titled a gloss.
@@ -426,10 +487,14 @@ fn column_by(title: &str, spelled: &str, mapping: &Mapping) -> Column {
         return column(Some(&target), None, 1.0, "its title is a field".to_owned());
     }
     let within = |known: &&String| known.split(' ').all(|word| words.contains(&word));
-    let longest = TABLE
-        .keys()
-        .filter(within)
-        .max_by_key(|known| (known.split(' ').count(), known.len()));
+    // A hand alone means its handshape; beside another word it is the hand of that: the location of the weak hand.
+    let longest = TABLE.keys().filter(within).max_by_key(|known| {
+        (
+            !is_hand(&known.replace(' ', "")),
+            known.split(' ').count(),
+            known.len(),
+        )
+    });
     match longest {
         Some(known) => column(
             TABLE.get(known),
@@ -486,6 +551,65 @@ fn meaning(target: &Target, language: Option<String>) -> Meaning {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Returns the meanings of the titles of a table with one row.
+    fn meant(titles: &[&str], cells: &[&str]) -> (Vec<String>, Vec<String>) {
+        let own = |texts: &[&str]| texts.iter().map(|&it| it.to_owned()).collect::<Vec<_>>();
+        let rows = [Row {
+            line: 2,
+            cells: own(cells),
+        }];
+        let mut findings = Findings::default();
+        let columns = meanings(&own(titles), &rows, &Mapping::default(), &mut findings);
+        let said = findings.finish().into_iter().map(|it| it.message);
+        let meant = columns.iter().map(|column| column.meaning.to_string());
+        (meant.collect(), said.collect())
+    }
+
+    #[test]
+    fn titles_state_the_hand_of_a_component() {
+        for (title, meaning) in [
+            ("Configuration MD", "right.configuration"),
+            ("Configuration MG", "left.configuration"),
+            ("Handshape NDH", "weak.configuration"),
+            ("Handshape DH final", "final.dominant.configuration"),
+            ("Final Handshape (left)", "final.left.configuration"),
+            ("Weak Hand Location", "weak.placement"),
+            ("Weak Hand", "weak.configuration"),
+            ("Orientation paume MG", "left.orientation.palm"),
+            ("Sign Type", "configuration.handedness"),
+            ("Location", "placement"),
+        ] {
+            let (meant, said) = meant(&["gloss", title], &["A", "x"]);
+            assert_eq!(meant[1], meaning, "{title}");
+            assert!(said.is_empty(), "{said:?}");
+        }
+        // With a weak hand MND, MD is the dominant one.
+        let (meant, _) = meant(
+            &["Glose", "Configuration MD", "Configuration MND"],
+            &["A", "x", "y"],
+        );
+        assert_eq!(
+            meant,
+            ["gloss", "dominant.configuration", "weak.configuration"]
+        );
+    }
+
+    #[test]
+    fn two_columns_of_one_component_are_reported() {
+        let (_, said) = meant(&["gloss", "Handshape", "Handform"], &["A", "U", "V"]);
+        assert!(
+            said[0].contains("\"Handshape\" and \"Handform\""),
+            "{said:?}"
+        );
+    }
+
+    #[test]
+    fn numbers_are_no_translations() {
+        let titles = ["gloss", "SignOnset(ms)", "SignLength(ms)", "Meaning 2"];
+        let (meant, _) = meant(&titles, &["A", "500", "700", "snail"]);
+        assert_eq!(meant, ["gloss", "attribute", "attribute", "translation"]);
+    }
 
     #[test]
     fn the_built_in_table_is_complete_and_each_title_has_one_meaning() {

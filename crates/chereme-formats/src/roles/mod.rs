@@ -78,7 +78,7 @@ pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess>
 /// one token.
 #[must_use]
 pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> {
-    let context = Context::new(tiers);
+    let context = Context::new(tiers.iter().map(|tier| tier.name));
     let mut guesses: Vec<TierGuess> = tiers
         .iter()
         .map(|tier| guess(tier, mapping, &context))
@@ -127,11 +127,8 @@ struct Context {
 }
 
 impl Context {
-    fn new(tiers: &[TierName<'_>]) -> Self {
-        let pieces: BTreeSet<String> = tiers
-            .iter()
-            .flat_map(|tier| words::pieces(tier.name))
-            .collect();
+    fn new<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+        let pieces: BTreeSet<String> = names.flat_map(words::pieces).collect();
         Self {
             dominance: pieces.contains("mnd") || pieces.contains("nd"),
         }
@@ -148,6 +145,19 @@ impl Context {
         }
         TABLE.hand(word)
     }
+}
+
+/// Returns the hand that each title of a table states, if it states one.
+pub(crate) fn stated_hands(titles: &[String]) -> Vec<Option<Hands>> {
+    let context = Context::new(titles.iter().map(String::as_str));
+    let hand = |title: &String| TABLE.find(title, |word| context.hand(word)).hand;
+    let all = titles.iter().map(hand);
+    all.map(|found| found.map(|(hand, _)| hand)).collect()
+}
+
+/// Returns whether words, written as one, mean a hand and nothing else: `weakhand`.
+pub(crate) fn is_hand(words: &str) -> bool {
+    TABLE.hand(words).is_some()
 }
 
 fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess {

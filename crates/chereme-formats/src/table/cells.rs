@@ -57,6 +57,18 @@ pub enum TableError {
         /// The end as it is written.
         end: String,
     },
+    /// The times are frames of a recording that the table does not have.
+    #[error(
+        "line {line}: the times are frames, and a table states no rate; import the recording, and then its annotations \
+         with `annotate CORPUS --in RECORDING from FILE`"
+    )]
+    Frames {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// No row could be read; the fault of the first one.
+    #[error("no row could be read; {0}")]
+    NoRow(String),
     /// JSON Lines hold something else than an object.
     #[error("line {line}, column {column}: {what}")]
     JsonLines {

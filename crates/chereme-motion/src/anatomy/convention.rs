@@ -18,6 +18,8 @@ pub struct ConventionGuess {
     pub unit_name: &'static str,
     /// Confidence in the guess: 1 if everything fits, 0 if there is no evidence.
     pub confidence: f64,
+    /// Confidence in the axes alone.
+    pub axes_confidence: f64,
     /// The evidence for and against the guess, a sentence each.
     pub reasons: Vec<String>,
 }
@@ -69,6 +71,7 @@ impl Anatomy {
             },
             unit_name,
             confidence: sure.min(sure_axes),
+            axes_confidence: sure_axes,
             reasons,
         }
     }

@@ -111,7 +111,7 @@ impl<'a> Finder<'a> {
         }
     }
 
-    fn labelled(&self, side: Option<Side>, word: Word) -> Vec<usize> {
+    pub(super) fn labelled(&self, side: Option<Side>, word: Word) -> Vec<usize> {
         let want = Some(Label { side, word });
         (0..self.labels.len())
             .filter(|&j| self.labels[j] == want)
@@ -124,7 +124,7 @@ impl<'a> Finder<'a> {
 
     /// Assigns `part` to the first joint with one of the words, in the order of `words`. Other joints with the same
     /// word make the part ambiguous, unless they are below that joint.
-    fn take(&mut self, part: Part, words: &[Word]) {
+    pub(super) fn take(&mut self, part: Part, words: &[Word]) {
         let side = part.side();
         let all = words.iter().map(|&word| self.labelled(side, word));
         let Some(all) = all.into_iter().find(|all| !all.is_empty()) else {
@@ -144,7 +144,7 @@ impl<'a> Finder<'a> {
     }
 
     fn head_and_trunk(&mut self) {
-        self.take(Part::Hips, &[Word::Hips, Word::Root]);
+        self.take(Part::Hips, &[Word::Hips]);
         self.take(Part::Neck, &[Word::Neck]);
         self.take(Part::Head, &[Word::Head]);
         self.take(Part::Jaw, &[Word::Jaw]);
@@ -488,6 +488,74 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Returns a body whose arms have names without a meaning but with a side, and helpers on their bones.
+    fn with_helpers(sides: [&str; 2]) -> Skeleton {
+        let plain = body(PLAIN);
+        let mut joints: Vec<Joint> = Vec::new();
+        let mut places = Vec::new();
+        for (n, joint) in plain.joints().iter().enumerate() {
+            let mut joint = joint.clone();
+            let side = usize::from(joint.name.starts_with("left"));
+            let sided = joint.name.starts_with("left") || joint.name.starts_with("right");
+            let arm = joint.name.ends_with("arm");
+            joint.parent = joint.parent.map(|parent| places[parent]);
+            joint.name = format!("{}x{n}", if sided { sides[side] } else { "" });
+            places.push(joints.len());
+            joints.push(joint);
+            let next = plain.children(n).first().filter(|_| arm);
+            if let Some(&next) = next {
+                let at = plain.joint(next).offset;
+                let here = places[n];
+                for share in [0.0, 0.5] {
+                    joints.push(Joint::new(format!("h{n}{share}"), Some(here), at * share));
+                }
+            }
+        }
+        Skeleton::new(joints).expect("a tree")
+    }
+
+    #[test]
+    fn arms_with_helpers_on_their_bones_are_found_on_the_sides_that_names_state() {
+        for (sides, swapped) in [
+            (["", ""], false),
+            (["R_", "L_"], false),
+            (["L_", "R_"], true),
+        ] {
+            let skeleton = with_helpers(sides);
+            let anatomy = Anatomy::detect(&skeleton);
+            let rest = skeleton.rest_model_pose();
+            for side in Side::BOTH {
+                for part in [Part::UpperArm(side), Part::Forearm(side), Part::Hand(side)] {
+                    let joint = anatomy.joint(part).expect("found by topology");
+                    assert!(!skeleton.joint(joint).name.starts_with('h'), "{part}");
+                    let is_left = rest.position(joint).x > 0.0;
+                    assert_eq!(is_left, (side == Side::Left) != swapped, "{part}");
+                }
+                let finger = Part::Finger(side, crate::hand::Finger::Little, 3);
+                assert!(anatomy.joint(finger).is_some(), "{sides:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_root_on_the_floor_is_not_the_hips() {
+        let plain = body(PLAIN);
+        let mut joints = vec![Joint::new("root", None, glam::DVec3::ZERO)];
+        joints.extend(plain.joints().iter().cloned().map(|mut joint| {
+            joint.parent = Some(joint.parent.map_or(0, |parent| parent + 1));
+            if joint.name == "hips" {
+                joint.name = "pivot".to_owned();
+            }
+            joint
+        }));
+        let skeleton = Skeleton::new(joints).expect("a tree");
+        let hips = Anatomy::detect(&skeleton).joint(Part::Hips);
+        assert_eq!(
+            hips.map(|it| skeleton.joint(it).name.as_str()),
+            Some("pivot")
+        );
     }
 
     #[test]

@@ -33,6 +33,7 @@ mod convention;
 mod detect;
 mod fingers;
 mod landmarks;
+mod languages;
 mod markers;
 mod measures;
 mod names;

@@ -6,6 +6,7 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
+use super::languages::{self, plain};
 use crate::hand::{Finger, Side};
 
 /// The meaning of a joint's name. `Shoulder`, `SideHip`, `Leg`, `Foot` and `Hand` mean different joints in
@@ -80,19 +81,54 @@ pub(super) struct Label {
     pub(super) word: Word,
 }
 
+/// What the names of one skeleton have in common.
+#[derive(Debug, Clone, Copy, Default)]
+struct Habits {
+    /// Whether digits are numbered from 0, the thumb, rather than from 1.
+    from_zero: bool,
+    /// Whether the letters G and D are the sides (*gauche*, *droite*), since the words beside them are French.
+    french: bool,
+}
+
 /// Returns the meaning of each name of a skeleton; `None` for an unknown name.
 pub(super) fn read_all(names: &[&str]) -> Vec<Option<Label>> {
-    let bare: Vec<&str> = names.iter().map(|name| without_rig(name)).collect();
-    let prefix = common_prefix(&bare);
-    let bare: Vec<&str> = bare
-        .iter()
-        .map(|name| name.strip_prefix(prefix).unwrap_or(name))
-        .collect();
-    let from_zero = bare.iter().any(|name| {
-        let words = words(name);
-        words.iter().any(|word| word == "finger") && words.iter().any(|word| word == "0")
-    });
-    bare.iter().map(|name| read(name, from_zero)).collect()
+    let mut bare: Vec<&str> = names.iter().map(|name| without_rig(name)).collect();
+    // A character's name may have several words, and stand before the prefix of a rig.
+    for _ in 0..4 {
+        let prefix = common_prefix(&bare);
+        if prefix.is_empty() {
+            break;
+        }
+        bare = bare
+            .iter()
+            .map(|name| without_rig(name.strip_prefix(prefix).unwrap_or(name)))
+            .collect();
+    }
+    let split: Vec<Vec<String>> = bare.iter().map(|name| words(name)).collect();
+    let has = |words: &[String], word: &str| words.iter().any(|it| it == word);
+    let counts = |words: &&Vec<String>| has(words, "finger") && has(words, "0");
+    let french = |words: &&Vec<String>| {
+        let core = |word: &&String| !matches!(word.as_str(), "g" | "d") && !starts_number(word);
+        let core: String = words.iter().filter(core).map(String::as_str).collect();
+        (has(words, "g") || has(words, "d")) && languages::french(&core, true).is_some()
+    };
+    let habits = Habits {
+        from_zero: split.iter().any(|words| counts(&words)),
+        french: split.iter().filter(french).count() > 1,
+    };
+    bare.iter().map(|name| read(name, habits)).collect()
+}
+
+/// Returns the side that a name states, whatever the rest of it means.
+pub(super) fn stated_side(name: &str) -> Option<Side> {
+    let words = words(without_rig(name));
+    let mut sides = words.iter().filter_map(|word| side(word));
+    let first = sides.next()?;
+    sides.all(|side| side == first).then_some(first)
+}
+
+fn starts_number(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_ascii_digit())
 }
 
 /// Removes namespaces and the prefixes of well-known rigs.
@@ -126,10 +162,9 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
         let end = name.find(['_', '-', '.', ' '])?;
         let head = &name[..=end];
         let head_words = words(head);
-        let plain = head_words
-            .iter()
-            .all(|word| side(word).is_none() && word.len() > 1);
-        (plain && read(head, false).is_none() && name.len() > head.len()).then_some(head)
+        let plain = head_words.iter().all(|word| side(word).is_none());
+        let known = read(head, Habits::default()).is_some();
+        (plain && !known && name.len() > head.len()).then_some(head)
     };
     let mut heads: BTreeMap<&str, usize> = BTreeMap::new();
     for head in names.iter().filter_map(|name| head(name)) {
@@ -142,13 +177,17 @@ fn common_prefix<'a>(names: &[&'a str]) -> &'a str {
 }
 
 /// Splits a name into lower-case words at separators, between letters and digits, and at capitals. Umlauts become two
-/// letters, in whichever of their two forms they are written: `hüfte` is `huefte`.
+/// letters, in whichever of their two forms they are written: `hüfte` is `huefte`. Other accents are removed, and
+/// wide letters and digits become plain ones.
 fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = vec![String::new()];
-    let letters: Vec<char> = name.chars().collect();
+    let letters: Vec<char> = name.chars().map(plain).collect();
     for (i, &c) in letters.iter().enumerate() {
         if c == '\u{308}' {
             words.last_mut().into_iter().for_each(|word| word.push('e'));
+            continue;
+        }
+        if matches!(c, '\u{300}'..='\u{36f}') {
             continue;
         }
         if !c.is_alphanumeric() {
@@ -171,6 +210,7 @@ fn words(name: &str) -> Vec<String> {
                 'ö' | 'Ö' => word.push_str("oe"),
                 'ü' | 'Ü' => word.push_str("ue"),
                 'ß' | 'ẞ' => word.push_str("ss"),
+                'œ' | 'Œ' => word.push_str("oe"),
                 c => word.extend(c.to_lowercase()),
             }
         }
@@ -181,10 +221,11 @@ fn words(name: &str) -> Vec<String> {
 
 fn side(word: &str) -> Option<Side> {
     match word {
-        "l" | "left" | "lft" | "lf" | "links" | "linke" | "linker" | "linkes" => Some(Side::Left),
-        "r" | "right" | "rgt" | "rt" | "rechts" | "rechte" | "rechter" | "rechtes" => {
-            Some(Side::Right)
+        "l" | "left" | "lft" | "lf" | "links" | "linke" | "linker" | "linkes" | "gauche" => {
+            Some(Side::Left)
         }
+        "r" | "right" | "rgt" | "rt" | "rechts" | "rechte" | "rechter" | "rechtes" | "droit"
+        | "droite" => Some(Side::Right),
         _ => None,
     }
 }
@@ -219,12 +260,13 @@ const HELPERS: [&str; 25] = [
 ];
 
 /// Words without a meaning.
-const FILLERS: [&str; 12] = [
-    "joint", "jnt", "bone", "def", "org", "mch", "bip", "bend", "smplhf", "c", "center", "b",
+const FILLERS: [&str; 15] = [
+    "joint", "jnt", "bone", "def", "org", "mch", "bip", "bend", "smplhf", "c", "center", "b", "m",
+    "x", "stretch",
 ];
 
-/// Returns the meaning of one name. `from_zero`: the skeleton numbers its digits from 0, the thumb, rather than from 1.
-fn read(name: &str, from_zero: bool) -> Option<Label> {
+/// Returns the meaning of one name.
+fn read(name: &str, habits: Habits) -> Option<Label> {
     let all = words(&with_forearm(name));
     if let [letter, number] = all.as_slice()
         && matches!(letter.as_str(), "l" | "t" | "c")
@@ -243,23 +285,28 @@ fn read(name: &str, from_zero: bool) -> Option<Label> {
     }
     let numbers: Vec<&str> = all
         .iter()
-        .filter(|word| word.starts_with(|c: char| c.is_ascii_digit()))
+        .filter(|word| starts_number(word))
         .map(String::as_str)
         .collect();
+    let sides = |word: &str| match word {
+        "g" if habits.french => Some(Side::Left),
+        "d" if habits.french => Some(Side::Right),
+        _ => side(word),
+    };
     let mut found = None;
     let mut core = String::new();
     for word in &all {
         if numbers.contains(&word.as_str()) || FILLERS.contains(&word.as_str()) {
             continue;
         }
-        match side(word) {
+        match sides(word) {
             Some(side) if found.is_none() => found = Some(side),
             Some(_) => return None,
             None => core.push_str(word),
         }
     }
-    let (found, core) = merged_side(found, &core, &numbers, from_zero);
-    let word = lookup(core, found.is_some(), &numbers, from_zero)?;
+    let (found, core) = merged_side(found, &core, &numbers, habits);
+    let word = lookup(core, found.is_some(), &numbers, habits)?;
     Some(Label { side: found, word })
 }
 
@@ -271,14 +318,14 @@ fn with_forearm(name: &str) -> Cow<'_, str> {
     }
 }
 
-/// Finds the side in names without separators or capitals: `lhumerus`, `leftupperarm`.
+/// Finds the side in names without separators or capitals: `lhumerus`, `leftupperarm`, `左腕`.
 fn merged_side<'a>(
     found: Option<Side>,
     core: &'a str,
     numbers: &[&str],
-    from_zero: bool,
+    habits: Habits,
 ) -> (Option<Side>, &'a str) {
-    if found.is_some() || lookup(core, false, numbers, from_zero).is_some() {
+    if found.is_some() || lookup(core, false, numbers, habits).is_some() {
         return (found, core);
     }
     for (head, side) in [
@@ -286,11 +333,13 @@ fn merged_side<'a>(
         ("right", Side::Right),
         ("links", Side::Left),
         ("rechts", Side::Right),
+        ("左", Side::Left),
+        ("右", Side::Right),
         ("l", Side::Left),
         ("r", Side::Right),
     ] {
         if let Some(rest) = core.strip_prefix(head)
-            && lookup(rest, true, numbers, from_zero).is_some_and(Word::sided)
+            && lookup(rest, true, numbers, habits).is_some_and(Word::sided)
         {
             return (Some(side), rest);
         }
@@ -298,7 +347,7 @@ fn merged_side<'a>(
     (found, core)
 }
 
-fn lookup(core: &str, sided: bool, numbers: &[&str], from_zero: bool) -> Option<Word> {
+fn lookup(core: &str, sided: bool, numbers: &[&str], habits: Habits) -> Option<Word> {
     Some(match core {
         "root" => Word::Root,
         "hip" if sided => Word::SideHip,
@@ -320,46 +369,22 @@ fn lookup(core: &str, sided: bool, numbers: &[&str], from_zero: bool) -> Option<
         "forearm" | "lowerarm" | "lowarm" | "elbow" | "radius" | "armlower" | "ulna" => {
             Word::Forearm
         }
-        "wrist" => Word::Wrist,
+        "wrist" | "handwrist" => Word::Wrist,
         "hand" | "carpus" => Word::Hand,
         "thigh" | "upleg" | "upperleg" | "femur" | "legupper" => Word::Thigh,
         "leg" => Word::Leg,
         "shin" | "lowleg" | "lowerleg" | "calf" | "knee" | "tibia" | "leglower" => Word::Shin,
-        "ankle" => Word::Ankle,
+        "ankle" | "footankle" => Word::Ankle,
         "foot" | "feet" => Word::Foot,
-        "toe" | "toes" | "toebase" | "ball" | "toebone" => Word::Toes,
-        _ => return german(core, sided).or_else(|| digit(core, numbers, from_zero)),
-    })
-}
-
-/// Looks up a German word, with umlauts written as two letters.
-fn german(core: &str, sided: bool) -> Option<Word> {
-    Some(match core {
-        "huefte" | "hueftgelenk" if sided => Word::SideHip,
-        "huefte" | "hueften" => Word::Hips,
-        "wirbel" | "wirbelsaeule" | "brust" | "brustkorb" | "bauch" | "ruecken" | "oberkoerper" => {
-            Word::Spine
+        "toe" | "toes" | "toebase" | "ball" | "football" | "toebone" => Word::Toes,
+        _ => {
+            return languages::lookup(core, sided)
+                .or_else(|| digit(core, numbers, habits.from_zero));
         }
-        "hals" | "nacken" | "genick" => Word::Neck,
-        "kopf" | "schaedel" => Word::Head,
-        "kiefer" | "unterkiefer" => Word::Jaw,
-        "auge" | "augapfel" => Word::Eye,
-        "schluesselbein" => Word::Clavicle,
-        "schulter" => Word::Shoulder,
-        "oberarm" => Word::UpperArm,
-        "unterarm" | "ellbogen" | "ellenbogen" => Word::Forearm,
-        "handgelenk" => Word::Wrist,
-        "oberschenkel" => Word::Thigh,
-        "bein" => Word::Leg,
-        "unterschenkel" | "knie" | "schienbein" => Word::Shin,
-        "fussgelenk" | "knoechel" | "sprunggelenk" => Word::Ankle,
-        "fuss" => Word::Foot,
-        "zehen" | "zehe" | "zeh" | "fussballen" => Word::Toes,
-        _ => return None,
     })
 }
 
-const DIGITS: [(&str, Digit); 20] = [
+const DIGITS: [(&str, Digit); 31] = [
     ("thumb", Digit::Thumb),
     ("index", Digit::Finger(Finger::Index)),
     ("pointer", Digit::Finger(Finger::Index)),
@@ -380,14 +405,28 @@ const DIGITS: [(&str, Digit); 20] = [
     ("kleiner", Digit::Finger(Finger::Little)),
     ("kleine", Digit::Finger(Finger::Little)),
     ("klein", Digit::Finger(Finger::Little)),
+    ("pouce", Digit::Thumb),
+    ("majeur", Digit::Finger(Finger::Middle)),
+    ("annulaire", Digit::Finger(Finger::Ring)),
+    ("auriculaire", Digit::Finger(Finger::Little)),
+    ("親指", Digit::Thumb),
+    ("人指", Digit::Finger(Finger::Index)),
+    ("人差指", Digit::Finger(Finger::Index)),
+    ("人差し指", Digit::Finger(Finger::Index)),
+    ("中指", Digit::Finger(Finger::Middle)),
+    ("薬指", Digit::Finger(Finger::Ring)),
+    ("小指", Digit::Finger(Finger::Little)),
 ];
 
 fn digit(core: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
-    if let Some(rest) = core.strip_prefix("finger") {
+    if let Some(rest) = ["finger", "digit"]
+        .iter()
+        .find_map(|it| core.strip_prefix(it))
+    {
         return numbered_finger(rest, numbers, from_zero);
     }
     let inside = core.starts_with("inhand");
-    let heads = ["inhand", "hand", "f"].iter();
+    let heads = ["inhand", "hand", "main", "doigt", "f"].iter();
     let bare = heads
         .filter_map(|head| core.strip_prefix(head))
         .find(|rest| DIGITS.iter().any(|(name, _)| rest.starts_with(name)));
@@ -407,10 +446,14 @@ fn digit(core: &str, numbers: &[&str], from_zero: bool) -> Option<Word> {
 fn segment(rest: &str, number: Option<u32>) -> Option<Segment> {
     Some(match rest.strip_prefix("finger").unwrap_or(rest) {
         "" => number.map_or(Segment::Unsaid, Segment::Number),
-        "metacarpal" | "mc" | "meta" | "carpal" => Segment::Metacarpal,
-        "proximal" | "pp" | "prox" | "grundglied" => Segment::Proximal,
-        "intermediate" | "medial" | "mp" | "inter" | "med" | "mittelglied" => Segment::Intermediate,
-        "distal" | "dp" | "dist" | "endglied" => Segment::Distal,
+        // Segments are also counted by letters; of these, `b` and `c` are fillers.
+        "a" => Segment::Number(1),
+        "metacarpal" | "mc" | "meta" | "carpal" | "cmc" => Segment::Metacarpal,
+        "proximal" | "pp" | "prox" | "mcp" | "grundglied" => Segment::Proximal,
+        "intermediate" | "medial" | "mp" | "inter" | "med" | "pip" | "mittelglied" => {
+            Segment::Intermediate
+        }
+        "distal" | "dp" | "dist" | "dip" | "ip" | "endglied" => Segment::Distal,
         _ => return None,
     })
 }
@@ -509,7 +552,26 @@ mod tests {
             ("Root", "Root".into()),
             ("base", "-".into()),
             ("", "-".into()),
-            ("手", "-".into()),
+            ("箱", "-".into()),
+            ("手", "Hand".into()),
+            ("左手首", "left Wrist".into()),
+            ("右人指１", "right Digit(Finger(Index), Number(1))".into()),
+            ("Épaule Gauche", "left Shoulder".into()),
+            ("E\u{301}pauleDroite", "right Shoulder".into()),
+            ("AvantBrasDroit", "right Forearm".into()),
+            (
+                "MainGaucheMajeur2",
+                "left Digit(Finger(Middle), Number(2))".into(),
+            ),
+            ("main", "-".into()),
+            ("mWristLeft", "left Wrist".into()),
+            ("arm_stretch.l", "left UpperArm".into()),
+            ("Root_M", "Root".into()),
+            ("root.x", "Root".into()),
+            ("Left_Index_MCP", format!("{index}Proximal)")),
+            ("LeftIndexDIP", format!("{index}Distal)")),
+            ("L_index_a", format!("{index}Number(1))")),
+            ("LeftDigit2Metacarpal", format!("{index}Metacarpal)")),
             ("LFArm", "left Forearm".into()),
             ("RFArm", "right Forearm".into()),
             ("LUArm", "left UpperArm".into()),
@@ -541,21 +603,31 @@ mod tests {
 
     #[test]
     fn a_character_prefix_is_ignored() {
-        let names = [
-            "Armature",
-            "Anna_Hips",
-            "Anna_Spine",
-            "Anna_LeftArm",
-            "Anna_Head",
-        ];
-        let words: Vec<_> = read_all(&names)
-            .into_iter()
-            .skip(1)
-            .map(|l| l.map(|l| l.word))
-            .collect();
-        assert_eq!(
-            words,
-            [Word::Hips, Word::Spine, Word::UpperArm, Word::Head].map(Some)
-        );
+        // Of one word, of two, with a number, with a letter, and before the prefix of a rig.
+        for prefix in ["Anna_", "CC_Base_", "Skeleton 001_", "f_avg_", "Mod.Bip01_"] {
+            let names =
+                ["Hips", "Spine", "LeftForearm", "Head"].map(|name| format!("{prefix}{name}"));
+            let mut names: Vec<&str> = names.iter().map(String::as_str).collect();
+            names.insert(0, "Armature");
+            let words: Vec<_> = read_all(&names)
+                .into_iter()
+                .skip(1)
+                .map(|l| l.map(|l| l.word))
+                .collect();
+            let want = [Word::Hips, Word::Spine, Word::Forearm, Word::Head].map(Some);
+            assert_eq!(words, want, "{prefix}");
+        }
+    }
+
+    #[test]
+    fn letters_are_sides_beside_french_words() {
+        let sides = |names: &[&str]| {
+            let labels = read_all(names).into_iter();
+            labels.map(|label| label?.side).collect::<Vec<_>>()
+        };
+        let (left, right) = (Some(Side::Left), Some(Side::Right));
+        let french = ["Bras_G", "AvantBras_D", "Index1_G", "Pouce2_D", "Cou"];
+        assert_eq!(sides(&french), [left, right, left, right, None]);
+        assert_eq!(sides(&["Arm_D", "Index1_G", "Bras_G"]), [None; 3]);
     }
 }

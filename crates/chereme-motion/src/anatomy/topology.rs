@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use super::detect::Finder;
 use super::fingers::in_hand;
-use super::names::Digit;
+use super::names::{Digit, Word, stated_side};
 use super::part::Part;
 use super::{Ambiguity, Evidence};
 use crate::hand::{Finger, Side};
@@ -31,14 +31,21 @@ impl Finder<'_> {
         self.hips();
     }
 
-    /// Finds the hips, where the thighs branch off.
+    /// Finds the hips, where the thighs branch off, else at a joint called root. A root may also be a node on the floor.
     fn hips(&mut self) {
         let thighs = Side::BOTH.map(|side| self.joint(Part::Thigh(side)));
         if let [Some(right), Some(left)] = thighs
             && let Some(hips) = self.common(right, left)
         {
-            self.put(Part::Hips, hips, Evidence::Topology);
+            let root = self.labels[hips].is_some_and(|label| label.word == Word::Root);
+            let how = if root {
+                Evidence::Name
+            } else {
+                Evidence::Topology
+            };
+            self.put(Part::Hips, hips, how);
         }
+        self.take(Part::Hips, &[Word::Root]);
     }
 
     /// Finds neck and head as the chain that continues from the chest beside the arms.
@@ -104,7 +111,8 @@ impl Finder<'_> {
     }
 
     /// Finds two pairs of similar chains: the one nearer to the root are the legs, the other the arms. A single pair
-    /// are the arms if something else, a neck, continues beside them.
+    /// are the arms if something else, a neck, continues beside them. Names decide which limb is the left one, if they
+    /// state a side; else the direction of the toes does.
     fn limbs(&mut self) {
         let pairs = pairs(self.skeleton);
         let rest = self.skeleton.rest_model_pose();
@@ -132,7 +140,14 @@ impl Finder<'_> {
             let Some(pair) = pair else { continue };
             let [a, b] = pair.limbs.map(|limb| end(self.skeleton, limb));
             let across = (at(a) - at(b)).dot(left);
-            let order = if across > 0.0 { [1, 0] } else { [0, 1] };
+            let [first, second] = pair.limbs.map(|limb| self.stated_side(limb));
+            let stated = match (first, second) {
+                (Some(first), Some(second)) if first != second => Some(first),
+                _ => None,
+            };
+            let first_is_left = stated.map_or(across > 0.0, |side| side == Side::Left);
+            let order = if first_is_left { [1, 0] } else { [0, 1] };
+            let sure = sure || stated.is_some();
             for (side, which) in Side::BOTH.into_iter().zip(order) {
                 self.limb(side, pair.limbs[which], is_arm);
                 let part = if is_arm {
@@ -149,6 +164,16 @@ impl Finder<'_> {
                 }
             }
         }
+    }
+
+    /// Returns the side that the names of a limb's joints state, if they agree.
+    fn stated_side(&self, limb: usize) -> Option<Side> {
+        let joints = self.skeleton.subtree(limb);
+        let mut sides = joints
+            .into_iter()
+            .filter_map(|joint| stated_side(&self.skeleton.joint(joint).name));
+        let first = sides.next()?;
+        sides.all(|side| side == first).then_some(first)
     }
 
     fn limb(&mut self, side: Side, first: usize, is_arm: bool) {
@@ -298,14 +323,42 @@ fn shapes(skeleton: &Skeleton) -> Vec<usize> {
     shapes
 }
 
-/// Returns `joint` and its descendants as long as each has one child; a joint with several is the last.
+/// Returns `joint` and its descendants as long as each has one child; a joint with several is the last. Helpers on the
+/// bone do not count as children.
 fn chain(skeleton: &Skeleton, joint: usize) -> Vec<usize> {
     let mut joints = vec![joint];
-    while let [child] = *skeleton.children(joints[joints.len() - 1]) {
+    while let Some(child) = only_child(skeleton, joints[joints.len() - 1]) {
         joints.push(child);
     }
     joints
 }
+
+/// Returns the child of a joint that has one, besides leaves that lie on the bone to it, as those that spread a twist.
+fn only_child(skeleton: &Skeleton, joint: usize) -> Option<usize> {
+    let children = skeleton.children(joint);
+    if let [child] = *children {
+        return Some(child);
+    }
+    let mut inner = children
+        .iter()
+        .filter(|&&child| !skeleton.children(child).is_empty());
+    let (&child, None) = (inner.next()?, inner.next()) else {
+        return None;
+    };
+    let bone = skeleton.joint(child).offset;
+    let length = bone.length();
+    let on_bone = |leaf: usize| {
+        let at = skeleton.joint(leaf).offset;
+        let along = at.dot(bone.normalize_or_zero());
+        let aside = (at - bone.normalize_or_zero() * along).length();
+        aside <= ON_BONE * length && (-ON_BONE..=1.0 + ON_BONE).contains(&(along / length))
+    };
+    let leaves = children.iter().filter(|&&leaf| leaf != child);
+    (length > 0.0 && leaves.copied().all(on_bone)).then_some(child)
+}
+
+/// How far from a bone a helper lies at most, as a share of the bone's length.
+const ON_BONE: f64 = 0.02;
 
 fn end(skeleton: &Skeleton, joint: usize) -> usize {
     chain(skeleton, joint).last().copied().unwrap_or(joint)

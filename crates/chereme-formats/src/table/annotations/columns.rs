@@ -89,8 +89,9 @@ impl Columns {
         let timed = found.start.is_some() && (found.end.is_some() || found.duration.is_some());
         let placed = found.at[1].is_some() || found.at[6].is_some();
         if timed && !placed {
-            // Without a column of tiers, "Gloss" is the name of a tier.
-            let is_tier = |column: &usize| normal(&header[*column]) == "gloss";
+            // Without a column of tiers, a title such as "Gloss" is the name of a tier.
+            let is_tier =
+                |column: &usize| !matches!(&*normal(&header[*column]), "value" | "annotation");
             if let Some(column) = found.at[4].take_if(|column| is_tier(column)) {
                 unknown.push((column, header[column].clone()));
                 unknown.sort();
@@ -108,6 +109,33 @@ impl Columns {
             });
         }
         found
+    }
+
+    /// Returns whether the rows are the annotations of one recording, with their times, rather than changes of some.
+    pub(super) fn holds_annotations(&self) -> bool {
+        let timed = self.start.is_some() && (self.end.is_some() || self.duration.is_some());
+        let [recording, tier, .., action, id, _] = self.at;
+        let changes = recording.or(action).or(id).is_some();
+        timed && !changes && (tier.is_some() || !self.tiers.is_empty())
+    }
+
+    /// Writes points for the decimal commas of times, in a table whose cells are not separated by commas.
+    pub(super) fn mend_commas(&self, table: &mut Cells) {
+        if table.delimiter == b',' {
+            return;
+        }
+        let times = [self.start, self.end, self.duration];
+        for column in times.into_iter().flatten().map(|time| time.column) {
+            for row in &mut table.rows {
+                if let Some(cell) = row.cells.get_mut(column)
+                    && let Some((whole, part)) = cell.trim().split_once(',')
+                    && is_bare(whole)
+                    && is_bare(part)
+                {
+                    *cell = format!("{whole}.{part}");
+                }
+            }
+        }
     }
 
     /// Recognises the columns of a table without titles, as ELAN exports it: the tier, perhaps the
@@ -209,17 +237,18 @@ fn meaning(title: &str) -> Option<Title> {
     match &*whole {
         "annotation" => return Some(Title::Annotation),
         "annotation id" => return Some(Title::Named(6)),
-        "gloss" | "text" | "annotation value" => return Some(Title::Named(4)),
-        "tier name" => return Some(Title::Named(1)),
+        "gloss" | "glose" | "text" | "texte" | "label" | "annotation value" | "valeur" | "wert" => {
+            return Some(Title::Named(4));
+        }
+        "tier name" | "piste" | "spur" => return Some(Title::Named(1)),
         "participant" => return Some(Title::Participant),
         "annotator" => return Some(Title::Idle),
         _ => {}
     }
     let (name, unit) = unit(&whole);
     match name {
-        "start" | "begin" | "start time" | "begin time" | "onset" | "debut" | "anfang" => {
-            Some(Title::Start(unit))
-        }
+        "start" | "begin" | "start time" | "begin time" | "onset" | "debut" | "anfang"
+        | "beginn" => Some(Title::Start(unit)),
         "end" | "stop" | "end time" | "stop time" | "fin" | "ende" => Some(Title::End(unit)),
         "duration" | "length" | "duree" | "dauer" => Some(Title::Duration(unit)),
         _ => known(&whole).map(Title::Named),

@@ -1,4 +1,4 @@
-//! Reads and writes the tab-delimited text that ELAN exports as tiers.
+//! Reads tables of annotations as tiers, and writes them as the tab-delimited text that ELAN exports.
 
 use std::borrow::Cow;
 
@@ -7,7 +7,7 @@ use chereme_motion::Span;
 use super::super::cells::{Cells, TableError};
 use super::super::rows::write_tab_rows;
 use super::columns::Columns;
-use super::{Moment, read};
+use super::{ChangeRow, Moment, read};
 use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
 use crate::finding::Finding;
 use crate::roles::normal;
@@ -16,8 +16,9 @@ use crate::tally::Findings;
 /// The name of the tier type of all tiers; ELAN exports no types.
 const KIND: &str = "annotation";
 
-/// Reports whether a text begins as ELAN's tab-delimited export does: without titles, each row a tier and its times; or
-/// with ELAN's title of the begin. Other tables of annotations are changes of recordings that exist.
+/// Reports whether a text begins as a table of the annotations of one recording: as ELAN's tab-delimited export without
+/// titles, each row a tier and its times; or with titles for begin and end, or begin and duration. Tables that name
+/// recordings, ids or actions are changes of recordings that exist.
 #[must_use]
 pub fn is_export(head: &[u8]) -> bool {
     let head = blank_comments(head).0;
@@ -25,13 +26,16 @@ pub fn is_export(head: &[u8]) -> bool {
         return false;
     };
     let titled = |name: &str| table.header.iter().any(|it| normal(it).starts_with(name));
-    Columns::of_export(&table).is_some() || titled("begin time") && !titled("recording")
+    let columns = Columns::of_titles(&table.header, &mut Findings::default());
+    Columns::of_export(&table).is_some()
+        || !titled("recording") && (titled("begin time") || columns.holds_annotations())
 }
 
 /// Reads tiers with their annotations; of annotations that overlap on a tier the first ends earlier.
 ///
 /// # Errors
-/// [`TableError`] if the bytes are no such table.
+/// [`TableError`] if the bytes are no such table, or no row of it has a tier and a time: times in frames need the rate of a
+/// recording.
 pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError> {
     let (blank, comments) = blank_comments(bytes);
     let (table, read) = read(&blank, None)?;
@@ -41,6 +45,15 @@ pub fn transcript(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), TableError
             let why = &fault.message;
             Finding::warning(fault.line, format!("a row was left out: {why}"))
         });
+    }
+    let frames = |row: &&ChangeRow| matches!(row.start, Some(Moment::Frame(_)));
+    if let Some(row) = table.rows.iter().find(frames) {
+        return Err(TableError::Frames { line: row.line });
+    }
+    if table.rows.is_empty()
+        && let Some(fault) = table.faults.first()
+    {
+        return Err(TableError::NoRow(fault.to_string()));
     }
     let mut transcript = Transcript::default();
     for row in table.rows {
@@ -282,7 +295,42 @@ mod tests {
     }
 
     #[test]
-    fn only_the_form_of_elan_is_an_export() {
+    fn titles_of_other_programs_and_decimal_commas_are_read() {
+        let french =
+            "Piste;Début;Fin;Valeur\nGlose;1,25;2,4;MAISON\nGlose;00:00:02,480;00:00:03.000;CHAT\n";
+        assert_eq!(
+            described(french),
+            ["Glose: a2t0 1250-2400 MAISON, a3t0 2480-3000 CHAT"]
+        );
+        let bare = "start_ms,duration_ms,gloss,mouthing\n1200,300,MAISON,ma\n";
+        assert_eq!(
+            described(bare),
+            [
+                "gloss: a2t0 1200-1500 MAISON",
+                "mouthing: a2t1 1200-1500 ma"
+            ]
+        );
+        let label = "Beginn;Ende;Text\n0,5;1,0;HAUS\n";
+        assert_eq!(described(label), ["Text: a2t0 500-1000 HAUS"]);
+        let fault = |text: &str| {
+            transcript(text.as_bytes())
+                .expect_err("no times")
+                .to_string()
+        };
+        let frames = fault("start_frame,end_frame,gloss\n30,60,MAISON\n");
+        assert!(
+            frames.contains("line 2") && frames.contains("frames"),
+            "{frames}"
+        );
+        let code = fault("tier,start,end,value\nG,00:00:01:05,00:00:02:10,MAISON\n");
+        assert!(
+            code.contains("line 2") && code.contains("hh:mm:ss:ff"),
+            "{code}"
+        );
+    }
+
+    #[test]
+    fn only_a_table_of_one_recording_is_an_export() {
         for (text, is) in [
             ("Gloss\t\t0.5\t1.0\tBOL\nGloss\t\t2.0\t2.5\tCHAT\nGl", true),
             ("Begin Time - ss.msec\tEnd Time - ss.msec\tGloss\n", true),
@@ -294,6 +342,14 @@ mod tests {
                 "recording,tier,start,end,value\nA,Gloss,0.5,1.0,BOL\n",
                 false,
             ),
+            ("Tier,Begin,End,Value\nGloss,0.5,1.0,BOL\n", true),
+            ("start_ms,end_ms,gloss\n500,1000,BOL\n", true),
+            ("Gebärde;Start;Ende;Hand\nHAUS1;0.5;1.0;r\n", true),
+            (
+                "tier,start,end,value,action,id\nG,0.5,1.0,BOL,set,a1\n",
+                false,
+            ),
+            ("gloss,start,handshape\nBOL,chin,B\n", false),
             ("gloss,handshape,frequency\nBOL,B,0.5\n", false),
             (
                 "token,gloss,recording,start_s,end_s\n1,BOL,A,0.5,1.0\n",

@@ -19,15 +19,17 @@ pub enum Moment {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error(
     "{text:?} is no time: write 1.5, 1.5s, 1500ms, 0:01.500 or f12{}",
-    comma(text)
+    remark(text)
 )]
 pub struct MomentError {
     /// The text.
     pub text: String,
 }
 
-fn comma(text: &str) -> &'static str {
-    if text.contains(',') {
+fn remark(text: &str) -> &'static str {
+    if text.matches(':').count() == 3 {
+        "; the rate of hh:mm:ss:ff is not stated: export the times as hh:mm:ss.ms"
+    } else if text.contains(',') {
         "; write a point before the decimals"
     } else {
         ""
@@ -156,7 +158,11 @@ fn clock(text: &str) -> Option<i64> {
     let (rest, seconds) = text
         .rsplit_once(':')
         .map_or((None, text), |(rest, seconds)| (Some(rest), seconds));
-    let micros = decimal(seconds, 6)?;
+    let seconds = match rest {
+        Some(_) => seconds.replacen(',', ".", 1),
+        None => seconds.to_owned(),
+    };
+    let micros = decimal(&seconds, 6)?;
     let Some(rest) = rest else {
         return Some(sign * micros);
     };
