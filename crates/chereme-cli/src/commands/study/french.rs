@@ -199,10 +199,6 @@ pub(in crate::commands) const WORDS: Words = Words {
             "{people}, dont {n} jusqu’à la fin ; {answers} réponses, {m} passées, {k} non atteintes",
         ),
         (
-            "rows that are not shown: {more}; --json has all",
-            "lignes qui ne sont pas montrées : {more} ; --json les a toutes",
-        ),
-        (
             "wrote {n} answers to {path}",
             "{n} réponses écrites dans {path}",
         ),
