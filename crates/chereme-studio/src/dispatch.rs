@@ -116,6 +116,9 @@ impl Studio {
                 let name = chereme_corpus::Name::Number(recording);
                 self.out.work(recordings::change_media(name, change));
             }
+            Command::Studied(Choose::Disagreements, paths) => {
+                self.panes.agreement.take_paths(paths)
+            }
             Command::Studied(what, paths) => self.panes.studies.take_paths(what, paths),
             Command::Import(paths) => {
                 self.panes.import.propose(&paths);

@@ -9,7 +9,7 @@ use std::task::{Context, Poll, Wake as TaskWake};
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::command::Command;
-use crate::words::{Language, Text, shell as words, studies};
+use crate::words::{Language, Text, agreement, shell as words, studies};
 use crate::work::begin::Begin;
 use crate::work::desk::Wake;
 
@@ -36,6 +36,18 @@ pub(crate) enum Choose {
     Answers,
     /// Where to write the report of a study.
     Report,
+    /// A table of trials for the plan of a study.
+    Trials,
+    /// A map of the columns of tables with one participant a row.
+    Columns,
+    /// The file of a plan of a study.
+    Plan,
+    /// Where to write the plan of a study.
+    SavePlan,
+    /// Where to write the answers to a study.
+    AnswersTable,
+    /// Where to write the disagreements of two annotators.
+    Disagreements,
     /// A media file for the recording with that row id; it replaces the track with the given row id, if any.
     Media(i64, Option<i64>),
 }
@@ -123,6 +135,12 @@ impl Choose {
             Self::Questionnaire => studies::FOLDER,
             Self::Answers => studies::DISK_FILES,
             Self::Report => studies::REPORT_PATH,
+            Self::Trials => studies::CHOOSE_TABLE,
+            Self::Columns => studies::CHOOSE_MAP,
+            Self::Plan => studies::PLAN_OF_FILE,
+            Self::SavePlan => studies::PLAN_FILE,
+            Self::AnswersTable => studies::ANSWERS_TABLE,
+            Self::Disagreements => agreement::TABLE_FILE,
             Self::Media(..) => words::CHOOSE_MEDIA,
         }
     }
@@ -134,7 +152,15 @@ impl Choose {
                 return Some(Command::Import(paths));
             }
             _ if paths.is_empty() => return None,
-            Self::Questionnaire | Self::Answers | Self::Report => {
+            Self::Questionnaire
+            | Self::Answers
+            | Self::Report
+            | Self::Trials
+            | Self::Columns
+            | Self::Plan
+            | Self::SavePlan
+            | Self::AnswersTable
+            | Self::Disagreements => {
                 return Some(Command::Studied(self, paths));
             }
             Self::Media(recording, track) => {
@@ -172,7 +198,7 @@ fn native(what: Choose, language: Language) -> Paths {
             let folder = dialog.pick_folder();
             Box::pin(async move { one(folder.await) })
         }
-        Choose::Media(..) => {
+        Choose::Media(..) | Choose::Trials | Choose::Columns | Choose::Plan => {
             let file = dialog.pick_file();
             Box::pin(async move { one(file.await) })
         }
@@ -181,6 +207,15 @@ fn native(what: Choose, language: Language) -> Paths {
                 .add_filter("HTML", &["html"])
                 .set_file_name("report.html")
                 .save_file();
+            Box::pin(async move { one(file.await) })
+        }
+        Choose::SavePlan | Choose::AnswersTable | Choose::Disagreements => {
+            let name = match what {
+                Choose::SavePlan => "plan.json",
+                Choose::AnswersTable => "answers.csv",
+                _ => "disagreements.csv",
+            };
+            let file = dialog.set_file_name(name).save_file();
             Box::pin(async move { one(file.await) })
         }
         Choose::Files | Choose::Answers => {

@@ -2,87 +2,15 @@
 
 mod common;
 
-use std::path::{Path, PathBuf};
-use std::sync::Arc;
-
+use chereme_corpus::Corpus;
 use chereme_corpus::study::StudyRequest;
-use chereme_corpus::study::answers::{
-    ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
-};
-use chereme_corpus::study::plan::{Design, Role as TrialRole};
-use chereme_corpus::{Corpus, Progress, unheard};
 use chereme_studio::Language;
+use common::studies::*;
 use common::tiers::{ALT, CTRL, operations, stored};
 use common::*;
 use eframe::egui::accesskit::Role;
-use eframe::egui::{DroppedFile, DroppedFileHandle, Event, Key};
+use eframe::egui::{Event, Key};
 use egui_kittest::kittest::{NodeT, Queryable};
-
-fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
-    let corpus = Some(small_corpus(folder));
-    let mut window = window(chereme_studio::Options {
-        corpus,
-        language,
-        ..options(folder)
-    });
-    until(&mut window, "the corpus", |it| contains(it, "escargot"));
-    idle(&mut window);
-    window.key_press_modifiers(CTRL, Key::F2);
-    window.run_steps(2);
-    window.key_press_modifiers(CTRL | ALT, Key::O);
-    window.run_steps(3);
-    idle(&mut window);
-    window
-}
-
-fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
-    window.get_by_label(label).focus();
-    window.run_steps(2);
-    window.get_by_label(label).type_text(text);
-    window.run_steps(3);
-}
-
-/// Writes the answers of a participant who saw both trials.
-fn write_answers(folder: &Path, sha256: &str, code: &str, values: [i64; 2]) -> PathBuf {
-    let answer = |(n, (condition, value)): (u32, (&str, i64))| Answer {
-        n,
-        block: 1,
-        part: String::new(),
-        item: "ESCARGOT".into(),
-        condition: condition.into(),
-        role: TrialRole::Main,
-        question: "realism".into(),
-        scale: Some([1, 5]),
-        value: Some(value),
-        choice: None,
-        right: None,
-        plays: 1,
-        ms: 900,
-        hidden: 0,
-        slow: 0,
-    };
-    let answers = ["captured", "higher"].into_iter().zip(values);
-    let participant = Participant {
-        format: ANSWERS_FORMAT.into(),
-        version: ANSWERS_VERSION,
-        study: "places".into(),
-        plan_sha256: sha256.into(),
-        code: code.into(),
-        seed: 1,
-        started_day: "2026-11-27".into(),
-        language: "en".into(),
-        device: Device::default(),
-        consent: [("analysis".to_owned(), true)].into(),
-        profile: [].into(),
-        finished: true,
-        skipped: Default::default(),
-        answers: (1..).zip(answers).map(answer).collect(),
-    };
-    let path = folder.join(format!("{code}.json"));
-    let text = serde_json::to_string(&participant).expect("text");
-    std::fs::write(&path, text).expect("written");
-    path
-}
 
 #[test]
 fn a_study_is_planned_built_answered_and_reported() {
@@ -140,9 +68,9 @@ fn a_study_is_planned_built_answered_and_reported() {
 
     click(&mut window, "Answers");
     for (code, values) in [("p1", [4, 2]), ("p2", [5, 3])] {
-        let file = write_answers(folder.path(), &study.plan_sha256, code, values);
-        window.input_mut().dropped_files.push(dropped(&file));
-        window.run_steps(3);
+        let values = [("captured", values[0]), ("higher", values[1])];
+        let file = write_answers(folder.path(), &study.plan_sha256, code, &values);
+        drop_file(&mut window, &file);
         let before = operations(&window);
         click(&mut window, "Import the answers");
         stored(&mut window, before);
@@ -175,24 +103,6 @@ fn a_study_is_planned_built_answered_and_reported() {
     until(&mut window, "the empty list", |it| {
         contains(it, "No study yet")
     });
-}
-
-/// A file that is dropped on the window.
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        std::fs::read(&self.0).map_err(|error| error.to_string())
-    }
-}
-
-fn dropped(path: &Path) -> DroppedFileHandle {
-    Arc::new(Dropped(path.to_owned()))
 }
 
 #[test]
@@ -248,21 +158,12 @@ fn the_work_of_a_study_is_found_again_after_another_was_looked_at() {
     let path = window.state().corpus().expect("open").clone();
     let mut corpus = Corpus::open(&path, "A").expect("opened");
     for name in ["one", "two"] {
+        let conditions = vec![("captured".to_owned(), "{}".to_owned())];
         let request = StudyRequest {
-            name: name.to_owned(),
-            title: None,
-            items: vec!["ESCARGOT".to_owned()],
-            conditions: vec![("captured".to_owned(), "{}".to_owned())],
-            trials: None,
-            questions: vec!["realism".to_owned()],
-            scale: 5,
-            design: Design::default(),
+            conditions,
+            ..places(name)
         };
-        let plan = request.plan().expect("a plan");
-        let mut hear = unheard;
-        corpus
-            .plan_study(&plan, &mut Progress::new(&mut hear))
-            .expect("stored");
+        plan(&mut corpus, &request);
     }
     until(&mut window, "the studies", |it| has(it, "two"));
     click(&mut window, "one");

@@ -10,7 +10,7 @@ use super::answers::Participant;
 use super::fits::short;
 use super::long;
 use super::stored::Stored;
-use super::wide::{self, ColumnMap};
+use super::wide::{self, ColumnMap, ColumnUse};
 use crate::error::{Error, Result};
 use crate::import::ReportFinding;
 use crate::paths::legible;
@@ -136,21 +136,21 @@ pub(super) fn text(path: &Path) -> Result<String> {
     })
 }
 
-/// Reads a file of answers; a table by the map of its columns, if there is one.
+/// Reads a file of answers; a table by the map of its columns, if there is one, and then returns their use.
 pub(super) fn read(
     path: &Path,
     study: &Stored,
     map: Option<&ColumnMap>,
     findings: &mut Findings,
-) -> Result<Vec<FromFile>> {
+) -> Result<(Vec<FromFile>, Vec<ColumnUse>)> {
     let text = text(path)?;
     let text = text.trim_start_matches('\u{feff}');
     if text.trim_start().starts_with('{') {
         return match serde_json::from_str::<Participant>(text) {
-            Ok(participant) => Ok(vec![FromFile {
-                participant,
-                lines: Vec::new(),
-            }]),
+            Ok(participant) => {
+                let lines = Vec::new();
+                Ok((vec![FromFile { participant, lines }], Vec::new()))
+            }
             Err(error) => {
                 let line = Some(error.line() as u64).filter(|line| *line > 0);
                 let message = format!("the answers cannot be read: {error}");
@@ -159,7 +159,7 @@ pub(super) fn read(
                     message,
                     "import the files that the questionnaire saves",
                 );
-                Ok(Vec::new())
+                Ok((Vec::new(), Vec::new()))
             }
         };
     }
@@ -186,5 +186,5 @@ pub(super) fn read(
             lines: it.lines,
         });
     }
-    Ok(read)
+    Ok((read, Vec::new()))
 }

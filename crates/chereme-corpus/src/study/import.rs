@@ -9,7 +9,7 @@ use serde::Serialize;
 use super::answers::Participant;
 use super::files::{self, Findings, FromFile, listed};
 use super::stored::Stored;
-use super::wide::ColumnMap;
+use super::wide::{ColumnMap, ColumnUse};
 use super::{fits, found, long, stored};
 use crate::Corpus;
 use crate::db::studies as db;
@@ -47,6 +47,27 @@ pub struct AnswersFile {
     pub participants: Vec<String>,
     /// Its oddities, or the reason why it was refused.
     pub findings: Vec<ReportFinding>,
+    /// The use of its columns, if it was read by a map.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub columns: Vec<ColumnUse>,
+}
+
+/// A text with the name of its file, which messages name.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct NamedText {
+    /// The text.
+    pub text: String,
+    /// The file.
+    pub file: String,
+}
+
+/// The settings of an import of answers.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct AnswersOptions {
+    /// The map of the columns of tables with one participant a row, itself a table.
+    pub columns: Option<NamedText>,
+    /// Whether the import is only tried: it reports the same, and nothing is stored.
+    pub dry_run: bool,
 }
 
 impl Corpus {
@@ -62,13 +83,14 @@ impl Corpus {
         paths: &[PathBuf],
         progress: &mut Progress<'_>,
     ) -> Result<AnswersReport> {
-        self.import_answers_by(study, paths, None, progress)
+        self.import_answers_by(study, paths, &AnswersOptions::default(), progress)
     }
 
     /// Imports answers as [`import_answers`](Self::import_answers) does, and reads tables by a map of their columns: tables
     /// of LimeSurvey or Qualtrics, one participant a row. The map is a table, too: a title in the column `column`, and either
     /// `item`, `condition`, `question` (and `part`, `role`) or `means`: `participant`, `language`, `started_day`, `finished`,
-    /// `profile.NAME`, `consent.NAME`. Codes of answers stand under `values`, as `A1=left; A2=right`.
+    /// `profile.NAME`, `consent.NAME`. Codes of answers stand under `values`, as `A1=left; A2=right`. The report has the use
+    /// of each column.
     ///
     /// # Errors
     /// Those of [`import_answers`](Self::import_answers); fails if the map names something that the plan does not have.
@@ -76,7 +98,7 @@ impl Corpus {
         &mut self,
         study: &str,
         paths: &[PathBuf],
-        map: Option<&Path>,
+        options: &AnswersOptions,
         progress: &mut Progress<'_>,
     ) -> Result<AnswersReport> {
         let mut files = Vec::new();
@@ -89,39 +111,32 @@ impl Corpus {
                 .at(place.unwrap_or_default())
                 .advise("answers are files that end in .json or .csv"));
         }
-        self.store
-            .operation_with_progress("import answers", progress, |connection, progress| {
-                let found = found(connection, study)?;
-                let plan = &found.plan;
-                let map = match map {
-                    Some(path) => {
-                        let text = files::text(path).map_err(|it| it.at(legible(path)))?;
-                        Some(ColumnMap::read(&text, &legible(path), plan)?)
-                    }
-                    None => None,
-                };
-                let mut report = AnswersReport {
-                    study: plan.name.clone(),
-                    ..AnswersReport::default()
-                };
-                let work = Work {
-                    connection,
-                    study: &found,
-                    map: map.as_ref(),
-                };
-                for (done, path) in files.iter().enumerate() {
-                    progress.report(Step {
-                        task: "reading answers",
-                        done: done as u64,
-                        total: Some(files.len() as u64),
-                        unit: Unit::Items,
-                    })?;
-                    work.file(path, &mut report)?;
-                }
-                let people = counted(report.added + report.replaced, "participants");
-                let summary = format!("{}, {people}", plan.name);
-                Ok((report, summary))
-            })
+        let mut tried = None;
+        let carry = |connection: &Connection, progress: &mut Progress<'_>| {
+            let report = import(connection, study, (&files, options), progress)?;
+            if options.dry_run {
+                tried = Some(report);
+                // An error rolls the attempt back.
+                return Err(Error::Stopped);
+            }
+            let people = counted(report.added + report.replaced, "participants");
+            let summary = format!("{}, {people}", report.study);
+            Ok((report, summary))
+        };
+        let done = self
+            .store
+            .operation_with_progress("import answers", progress, carry);
+        tried.map_or(done, Ok)
+    }
+
+    /// Reads a text that is made into a plan, a table of trials or a map of columns.
+    ///
+    /// # Errors
+    /// Fails if the file cannot be read, is very large, or holds no text in UTF-8.
+    pub fn read_study_text(path: &Path) -> Result<NamedText> {
+        let file = legible(path);
+        let text = files::text(path).map_err(|it| it.at(file.clone()))?;
+        Ok(NamedText { text, file })
     }
 
     /// Writes all answers to a study as a table in the long form, one answer a row; import reads it again.
@@ -139,6 +154,38 @@ impl Corpus {
             .map(|it| it.answers.len() as u64)
             .sum())
     }
+}
+
+/// Imports files of answers.
+fn import(
+    connection: &Connection,
+    study: &str,
+    (files, options): (&[PathBuf], &AnswersOptions),
+    progress: &mut Progress<'_>,
+) -> Result<AnswersReport> {
+    let found = found(connection, study)?;
+    let map = options.columns.as_ref();
+    let map = map.map(|it| ColumnMap::read(&it.text, &it.file, &found.plan));
+    let map = map.transpose()?;
+    let mut report = AnswersReport {
+        study: found.plan.name.clone(),
+        ..AnswersReport::default()
+    };
+    let work = Work {
+        connection,
+        study: &found,
+        map: map.as_ref(),
+    };
+    for (done, path) in files.iter().enumerate() {
+        progress.report(Step {
+            task: "reading answers",
+            done: done as u64,
+            total: Some(files.len() as u64),
+            unit: Unit::Items,
+        })?;
+        work.file(path, &mut report)?;
+    }
+    Ok(report)
 }
 
 /// The outcome of the import for a participant.
@@ -159,13 +206,11 @@ struct Work<'c> {
 impl Work<'_> {
     fn file(&self, path: &Path, report: &mut AnswersReport) -> Result<()> {
         let mut findings = Findings::default();
-        let people = match files::read(path, self.study, self.map, &mut findings) {
-            Ok(people) => people,
-            Err(error) => {
-                findings.add("error", None, error.to_string(), error.remedy());
-                Vec::new()
-            }
-        };
+        let read = files::read(path, self.study, self.map, &mut findings);
+        let (people, columns) = read.unwrap_or_else(|error| {
+            findings.add("error", None, error.to_string(), error.remedy());
+            Default::default()
+        });
         let mut codes = Vec::new();
         let mut became = Vec::new();
         for it in people {
@@ -197,6 +242,7 @@ impl Work<'_> {
             status,
             participants: codes,
             findings: findings.finished(),
+            columns,
         });
         Ok(())
     }

@@ -6,24 +6,28 @@
 //! | module | holds |
 //! |---|---|
 //! | [`plan`], [`answers`] | the plan, and the answers of a participant, as values |
-//! | `request`, `texts` | a plan from a few words, and its usual texts |
+//! | `request`, `trials`, `texts` | a plan from a few words or a table of trials, and its usual texts |
+//! | `change` | a stored plan as the request that makes it again |
 //! | `check` | the faults of a plan |
 //! | `distances` | how far clips are from those of another condition |
 //! | [`order`] | the order in which each participant sees the trials |
 //! | `build` | the questionnaire |
 //! | `import`, `files`, `fits` | answers from files, checked against the plan |
 //! | `long`, `wide`, `rows` | answers as a table: one answer a row, or one participant a row |
+//! | `listing` | the answers one by one, with those that are missing |
 //! | `overview` | all studies at a glance, and the clip of a trial |
 //! | `stored` | plans and participants as rows of the database |
 //! | [`report`] | people, answers, comparisons and conclusions |
 
 pub mod answers;
 mod build;
+mod change;
 mod check;
 mod distances;
 mod files;
 mod fits;
 mod import;
+mod listing;
 mod long;
 pub mod order;
 mod overview;
@@ -33,9 +37,12 @@ mod request;
 mod rows;
 mod stored;
 mod texts;
+mod trials;
 mod wide;
 
 use std::collections::BTreeMap;
+use std::io::Write as _;
+use std::path::Path;
 use std::sync::Arc;
 
 use chereme_motion::anatomy::Anatomy;
@@ -55,9 +62,11 @@ use stored::Stored;
 
 pub use build::{Questionnaire, QuestionnaireOptions};
 pub use distances::DISTANCE;
-pub use import::{AnswersFile, AnswersReport};
+pub use import::{AnswersFile, AnswersOptions, AnswersReport, NamedText};
+pub use listing::{AnswerFilter, AnswerList, AnswerRow, AnswerState, ParticipantSummary};
 pub use overview::StudyOverview;
 pub use request::{StudyRequest, words};
+pub use wide::ColumnUse;
 
 /// A study with everything that was answered.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -152,6 +161,20 @@ impl Corpus {
             plan_sha256: found.sha256,
             participants,
         })
+    }
+
+    /// Writes the plan of a study as JSON, which [`read_plan`](Self::read_plan) reads.
+    ///
+    /// # Errors
+    /// Fails if there is no study of that name, or the file exists and `force` is not set.
+    pub fn export_plan(&self, name: &str, to: &Path, force: bool) -> Result<()> {
+        let plan = found(self.store.read(), name)?.plan;
+        // Plans have text keys and finite numbers only.
+        let json = serde_json::to_vec_pretty(&plan).unwrap_or_default();
+        crate::picture::write(to, force, |out| {
+            out.write_all(&json).map_err(|error| Error::file(to, error))
+        })?;
+        Ok(())
     }
 
     /// Deletes a study with all its answers.

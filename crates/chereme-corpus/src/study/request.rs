@@ -6,11 +6,11 @@ use chereme_sign::Remedy;
 use chereme_sign::text::fold;
 
 use super::plan::{
-    ChoiceOption, Consent, Design, PLAN_FORMAT, PLAN_VERSION, Plan, Question, QuestionKind, Role,
-    Trial, Viewing,
+    ChoiceOption, Consent, Design, Exclusion, Hypothesis, PLAN_FORMAT, PLAN_VERSION, Plan,
+    Question, QuestionKind, Trial, Viewing, text_in,
 };
-use super::rows::{Table, table};
 use super::texts;
+use super::trials::{Listed, answer, listed, together, trial};
 use crate::error::{Error, Result};
 
 /// A study in a few words.
@@ -33,6 +33,15 @@ pub struct StudyRequest {
     pub scale: i64,
     /// The order of trials.
     pub design: Design,
+    /// The hypotheses.
+    pub hypotheses: Vec<Hypothesis>,
+    /// The rules by which participants are left out.
+    pub exclusions: Vec<Exclusion>,
+    /// The plan that is changed, if it is not a new one: what a request does not state is taken from it, such as the texts
+    /// of questions and what is asked about participants.
+    pub before: Option<Plan>,
+    /// Trials of that plan which neither items and conditions nor a table can state.
+    pub others: Vec<Trial>,
 }
 
 impl StudyRequest {
@@ -45,6 +54,8 @@ impl StudyRequest {
         if let Some((text, file)) = &self.trials {
             trials.extend(listed(text, file)?);
         }
+        let stated = trials.len();
+        trials.extend(self.others.iter().cloned().map(Listed::of));
         if trials.is_empty() {
             return Err(Error::wrong("a study needs trials").advise(Remedy::command(
                 "name --items and at least one --condition, or a table of trials with --trials FILE",
@@ -52,29 +63,39 @@ impl StudyRequest {
         }
         let mut questions = Vec::new();
         for text in &self.questions {
-            questions.push(self.question(text, &trials)?);
+            questions.push(match self.unstated(text, &trials) {
+                Some(kept) => kept.clone(),
+                None => self.kept(self.question(text, &trials)?),
+            });
         }
         if questions.is_empty() {
             return Err(Error::wrong("a study needs a question")
                 .advise(Remedy::command("ask one with --ask realism")));
         }
-        for trial in &mut trials {
-            answer(trial, &questions)?;
-        }
+        let answers = trials[..stated].iter_mut();
+        let wrong = answers.filter_map(|it| answer(it, &questions).err());
+        together(wrong.collect())?;
         let title = self.title.as_ref().unwrap_or(&self.name);
+        let before = self.before.as_ref();
+        let kept = before
+            .map(|it| &it.title)
+            .filter(|it| match text_in(it, "en") {
+                Some(text) => text == title,
+                None => self.title.is_none(),
+            });
         Ok(Plan {
             format: PLAN_FORMAT.to_owned(),
             version: PLAN_VERSION,
             name: self.name.clone(),
-            title: texts::both(title, title),
-            consent: Consent::default(),
+            title: kept.map_or_else(|| texts::both(title, title), Clone::clone),
+            consent: before.map_or_else(Consent::default, |it| it.consent.clone()),
             trials: trials.into_iter().map(|it| it.trial).collect(),
             questions,
-            profile: texts::profile(),
+            profile: before.map_or_else(texts::profile, |it| it.profile.clone()),
             design: self.design,
-            analysed: None,
-            hypotheses: Vec::new(),
-            exclusions: Vec::new(),
+            analysed: before.and_then(|it| it.analysed.clone()),
+            hypotheses: self.hypotheses.clone(),
+            exclusions: self.exclusions.clone(),
         })
     }
 
@@ -83,22 +104,15 @@ impl StudyRequest {
         let mut trials = Vec::new();
         for item in &self.items {
             for (condition, recipe) in &self.conditions {
-                trials.push(Listed::of(Trial {
-                    item: item.clone(),
-                    condition: condition.clone(),
-                    clip: recipe.replace("{}", &quoted(item)),
-                    role: Role::Main,
-                    part: String::new(),
-                    right: BTreeMap::new(),
-                    measures: BTreeMap::new(),
-                }));
+                let clip = recipe.replace("{}", &quoted(item));
+                trials.push(Listed::of(trial(item, condition, clip)));
             }
         }
         trials
     }
 
     /// Reads a question such as `gloss@signs=items LIMACE`.
-    fn question(&self, text: &str, trials: &[Listed]) -> Result<Question> {
+    pub(super) fn question(&self, text: &str, trials: &[Listed]) -> Result<Question> {
         let (head, answers) = match text.split_once('=') {
             Some((head, answers)) => (head, Some(answers)),
             None => (text, None),
@@ -197,131 +211,10 @@ pub fn words(text: &str) -> Vec<String> {
 }
 
 /// Returns an item as a recipe names it: in quotes if it holds blanks.
-fn quoted(item: &str) -> String {
+pub(super) fn quoted(item: &str) -> String {
     if item.contains(char::is_whitespace) && !item.contains('"') {
         format!("\"{item}\"")
     } else {
         item.to_owned()
     }
-}
-
-/// A trial with what its row of the table says about right answers.
-struct Listed {
-    trial: Trial,
-    /// The right answer to whichever question has it as an option.
-    answer: Option<String>,
-    /// Where it stands.
-    place: String,
-}
-
-impl Listed {
-    fn of(trial: Trial) -> Self {
-        Self {
-            trial,
-            answer: None,
-            place: String::new(),
-        }
-    }
-}
-
-/// Fills in the right answers of a trial: those of its row, or else its item if that is an option.
-fn answer(listed: &mut Listed, questions: &[Question]) -> Result<()> {
-    let part = &listed.trial.part;
-    let mut used = false;
-    for question in questions {
-        let QuestionKind::Choice { options } = &question.kind else {
-            continue;
-        };
-        if !question.parts.is_empty() && !question.parts.contains(part) {
-            continue;
-        }
-        let right = listed.answer.as_ref().unwrap_or(&listed.trial.item);
-        if options.iter().any(|it| it.name == *right) {
-            used = true;
-            let right = right.clone();
-            listed
-                .trial
-                .right
-                .entry(question.name.clone())
-                .or_insert(right);
-        }
-    }
-    match &listed.answer {
-        Some(answer) if !used => Err(Error::wrong(format!(
-            "no question has the option {answer:?}, which is to be right"
-        ))
-        .at(listed.place.clone())
-        .advise("name the option in the question, or leave the cell empty")),
-        _ => Ok(()),
-    }
-}
-
-/// Reads a table of trials: `item`, `condition`, `clip`, and if wished `role`, `part`, `answer`; `answer QUESTION` for
-/// one of several questions; every other column is a measure.
-fn listed(text: &str, file: &str) -> Result<Vec<Listed>> {
-    let Table { titles, rows } = table(text, file)?;
-    for needed in ["item", "condition", "clip"] {
-        if !titles.iter().any(|it| it == needed) {
-            let error = Error::wrong(format!("the table has no column {needed:?}")).at(file);
-            return Err(error.advise(
-                "the columns are item, condition, clip, and if wished role, part, answer, and measures in numbers",
-            ));
-        }
-    }
-    let mut trials = Vec::with_capacity(rows.len());
-    for (line, cells) in rows {
-        let place = format!("{file}, line {line}");
-        let mut it = Listed {
-            trial: Trial {
-                item: String::new(),
-                condition: String::new(),
-                clip: String::new(),
-                role: Role::Main,
-                part: String::new(),
-                right: BTreeMap::new(),
-                measures: BTreeMap::new(),
-            },
-            answer: None,
-            place: place.clone(),
-        };
-        for (title, cell) in titles.iter().zip(cells) {
-            let cell = cell.trim();
-            if cell.is_empty() {
-                continue;
-            }
-            match title.as_str() {
-                "item" => cell.clone_into(&mut it.trial.item),
-                "condition" => cell.clone_into(&mut it.trial.condition),
-                "clip" => cell.clone_into(&mut it.trial.clip),
-                "part" => cell.clone_into(&mut it.trial.part),
-                "role" => {
-                    it.trial.role = Role::named(cell).ok_or_else(|| {
-                        Error::wrong(format!("{cell:?} is no role of a trial"))
-                            .at(&place)
-                            .advise("the roles are training, main and check")
-                    })?;
-                }
-                "answer" => it.answer = Some(cell.to_owned()),
-                other => match other.strip_prefix("answer ") {
-                    Some(question) => {
-                        it.trial
-                            .right
-                            .insert(question.trim().to_owned(), cell.to_owned());
-                    }
-                    None => {
-                        let number: Option<f64> =
-                            cell.parse().ok().filter(|it: &f64| it.is_finite());
-                        let number = number.ok_or_else(|| {
-                            Error::wrong(format!("{cell:?} in the column {other:?} is no number"))
-                                .at(&place)
-                                .advise("columns beside item, condition, clip, role, part and answer are measures of the clip")
-                        })?;
-                        it.trial.measures.insert(other.to_owned(), number);
-                    }
-                },
-            }
-        }
-        trials.push(it);
-    }
-    Ok(trials)
 }

@@ -15,12 +15,14 @@ use std::collections::BTreeMap;
 
 use chereme_sign::Remedy;
 use chereme_sign::text::{did_you_mean, fold, nearest};
+use serde::Serialize;
 
 use super::answers::{ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant};
 use super::files::{Findings, FromFile};
 use super::fits::short;
 use super::plan::{ChoiceOption, Plan, Question, QuestionKind, Role, Texts};
 use super::rows::{Table, table};
+use super::trials::together;
 use crate::error::{Error, Result};
 
 /// The columns of a map.
@@ -34,6 +36,9 @@ const TITLES: [&str; 8] = [
     "means",
     "values",
 ];
+
+/// The largest number of wrong rows of a map that are reported.
+const MOST_WRONG: usize = 100;
 
 /// The beginnings of meanings with a name.
 const PROFILE: &str = "profile.";
@@ -55,6 +60,22 @@ struct MappedColumn {
     means: Means,
     /// The answer for which each code stands, by the code in folded letters.
     values: BTreeMap<String, String>,
+}
+
+/// A column of a table of answers, as an import uses it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct ColumnUse {
+    /// Its title.
+    pub column: String,
+    /// Its meaning by the map: a word such as `participant`, or the trial and the question; empty if the map does not name
+    /// it, so that it is left out.
+    pub means: String,
+    /// How many of its cells are filled in.
+    pub cells: u64,
+    /// The first of these cells.
+    pub example: String,
+    /// What the example stands for, if it is a code.
+    pub stands_for: String,
 }
 
 /// The meaning of a column.
@@ -94,37 +115,23 @@ impl ColumnMap {
                 "its columns are column, item, condition, part, role, question, means and values",
             ));
         }
-        let mut columns = Vec::with_capacity(rows.len());
+        let mut columns: Vec<MappedColumn> = Vec::with_capacity(rows.len());
         let mut trials: Vec<[String; 4]> = Vec::new();
         let mut taken = BTreeMap::new();
+        let mut wrong = Vec::new();
         for (line, cells) in rows {
-            let place = || format!("{file}, line {line}");
+            let place = format!("{file}, line {line}");
             let cell = |name: &str| {
                 let at = titles.iter().position(|it| it == name);
                 at.and_then(|at| cells.get(at)).map_or("", |it| it.trim())
             };
-            if cell("column").is_empty() {
-                let message = "the row names no column of the answers";
-                return Err(Error::wrong(message).at(place()));
+            match MappedColumn::read(plan, &cell, (&mut trials, &mut taken)) {
+                Ok(column) => columns.push(column),
+                Err(error) if wrong.len() < MOST_WRONG => wrong.push(error.at(place)),
+                Err(_) => break,
             }
-            let means = match cell("means") {
-                "" => {
-                    Means::Answer(answered(plan, &cell, &mut trials).map_err(|it| it.at(place()))?)
-                }
-                word => Means::named(plan, word).map_err(|it| it.at(place()))?,
-            };
-            if let Means::Answer(answer) = &means
-                && let Some(before) = taken.insert(answer.clone(), cell("column").to_owned())
-            {
-                let message = format!("{before:?} and this column answer the same question");
-                return Err(Error::wrong(message).at(place()));
-            }
-            columns.push(MappedColumn {
-                title: cell("column").to_owned(),
-                means,
-                values: codes(cell("values")).map_err(|it| it.at(place()))?,
-            });
         }
+        together(wrong)?;
         if !columns.iter().any(|it| it.means == Means::Code) {
             return Err(Error::wrong("the map has no column of participants")
                 .at(file)
@@ -139,7 +146,56 @@ impl ColumnMap {
     }
 }
 
+impl MappedColumn {
+    /// Reads a row of a map; `taken` holds the answers of the rows before.
+    fn read<'a>(
+        plan: &Plan,
+        cell: &impl Fn(&str) -> &'a str,
+        (trials, taken): (&mut Vec<[String; 4]>, &mut BTreeMap<Place, String>),
+    ) -> Result<Self> {
+        if cell("column").is_empty() {
+            return Err(Error::wrong("the row names no column of the answers"));
+        }
+        let means = match cell("means") {
+            "" => Means::Answer(answered(plan, cell, trials)?),
+            word => Means::named(plan, word)?,
+        };
+        if let Means::Answer(answer) = &means
+            && let Some(before) = taken.insert(answer.clone(), cell("column").to_owned())
+        {
+            let message = format!("{before:?} and this column answer the same question");
+            return Err(Error::wrong(message));
+        }
+        Ok(Self {
+            title: cell("column").to_owned(),
+            means,
+            values: codes(cell("values"))?,
+        })
+    }
+}
+
 impl Means {
+    /// Returns the meaning in the words of a map.
+    fn text(&self) -> String {
+        match self {
+            Self::Code => "participant".to_owned(),
+            Self::Language => "language".to_owned(),
+            Self::StartedDay => "started_day".to_owned(),
+            Self::Finished => "finished".to_owned(),
+            Self::Profile(name) => format!("{PROFILE}{name}"),
+            Self::Consent(name) => format!("{CONSENT}{name}"),
+            Self::Answer(it) => {
+                let words = [&it.part, &it.item, &it.condition, &it.question];
+                let words: Vec<&str> = words
+                    .into_iter()
+                    .map(String::as_str)
+                    .filter(|it| !it.is_empty())
+                    .collect();
+                words.join(" · ")
+            }
+        }
+    }
+
     fn named(plan: &Plan, word: &str) -> Result<Self> {
         if let Some(name) = word.strip_prefix(PROFILE) {
             let known = plan.profile.iter().map(|it| it.name.as_str());
@@ -234,7 +290,7 @@ pub(super) fn read(
     file: &str,
     (map, plan, sha256): (&ColumnMap, &Plan, &str),
     findings: &mut Findings,
-) -> Result<Vec<FromFile>> {
+) -> Result<(Vec<FromFile>, Vec<ColumnUse>)> {
     let Table { titles, mut rows } = table(text, file)?;
     let mut columns = Vec::with_capacity(map.columns.len());
     for column in &map.columns {
@@ -260,6 +316,7 @@ pub(super) fn read(
     if let Some(last) = rows.iter().take(2).rposition(own) {
         rows.drain(..=last);
     }
+    let uses = uses(&titles, &rows, &columns);
     let mut people = Vec::with_capacity(rows.len());
     for (line, cells) in &rows {
         let cell = |at: usize| cells.get(at).map_or("", |it| it.trim());
@@ -282,7 +339,31 @@ pub(super) fn read(
             },
         });
     }
-    Ok(people)
+    Ok((people, uses))
+}
+
+/// Returns how each column of a table is used.
+fn uses(
+    titles: &[String],
+    rows: &[(u64, Vec<String>)],
+    columns: &[(usize, &MappedColumn)],
+) -> Vec<ColumnUse> {
+    let one = |(at, title): (usize, &String)| {
+        let filled = rows.iter().filter_map(|(_, cells)| cells.get(at));
+        let mut filled = filled.map(|it| it.trim()).filter(|it| !it.is_empty());
+        let example = filled.next();
+        let mapped = columns.iter().find(|it| it.0 == at).map(|it| it.1);
+        let code = mapped.zip(example);
+        let stands_for = code.and_then(|(it, text)| it.values.get(&fold(text)));
+        ColumnUse {
+            column: title.clone(),
+            means: mapped.map(|it| it.means.text()).unwrap_or_default(),
+            cells: example.map_or(0, |_| filled.count() as u64 + 1),
+            example: example.map(short).unwrap_or_default(),
+            stands_for: stands_for.cloned().unwrap_or_default(),
+        }
+    };
+    titles.iter().enumerate().map(one).collect()
 }
 
 /// Returns the participant of a row, whose answers are read as far as they can be.

@@ -2,8 +2,9 @@
 
 use chereme_analysis::statistics::{Equivalence, Method, Size, Undefined};
 
-use super::Text;
+use super::{Language, Text};
 use crate::study::report::{Because, Reason, TestName, Verdict};
+use crate::study::{AnswerRow, AnswerState};
 
 texts! {
     SUBTITLE: "Report of a perceptual study", "Rapport d’une étude perceptive";
@@ -81,6 +82,8 @@ texts! {
     METHODS_EFFECT: "Cliff’s delta says how much more often an answer of the first group is higher than one of the second, from −1 to 1; for right answers it is the difference of shares. Below 0.147 it is called negligible, below 0.33 small, below 0.474 medium.", "Le delta de Cliff dit combien une réponse du premier groupe dépasse plus souvent une réponse du second, de −1 à 1 ; pour des réponses justes, c’est la différence des parts. Sous 0,147 il est dit négligeable, sous 0,33 petit, sous 0,474 moyen.";
     METHODS_HOLM: "p of several pairs are corrected by Holm’s method within one comparison. “exact” means the exact distribution with ties, “approximate” the normal approximation with a correction for continuity.", "Les p de plusieurs paires sont corrigés par la méthode de Holm dans une même comparaison. « exact » désigne la distribution exacte avec ex æquo, « approché » l’approximation normale avec correction de continuité.";
     MADE: "Made by chereme {version} from plan {sha} with seed {seed}. The same plan and answers give the same report.", "Produit par chereme {version} à partir du plan {sha}, graine {seed}. Le même plan et les mêmes réponses donnent le même rapport.";
+    SKIPPED: "passed over", "passée";
+    NOT_REACHED: "not reached", "non atteinte";
     NOT_CONSENTED: "no agreement to an analysis", "pas d’accord pour l’analyse";
     UNFINISHED: "not finished", "non terminé";
     CHECKS_WRONG: "more than {n} checks wrong", "plus de {n} contrôles faux";
@@ -216,6 +219,17 @@ pub fn reason(reason: &Reason) -> Text {
         Reason::Rule(Exclusion::ChecksWrong(_)) => CHECKS_WRONG,
         Reason::Rule(Exclusion::OneValue) => ONE_VALUE,
         Reason::Filter { .. } => FILTERED,
+    }
+}
+
+/// Returns an answer, or why there is none.
+#[must_use]
+pub fn answer_text(row: &AnswerRow, language: Language) -> String {
+    match row.state {
+        AnswerState::Answered => row.answer.clone(),
+        AnswerState::CannotSay => CANNOT_SAY.of(language).to_owned(),
+        AnswerState::Skipped => SKIPPED.of(language).to_owned(),
+        AnswerState::NotReached => NOT_REACHED.of(language).to_owned(),
     }
 }
 

@@ -90,6 +90,10 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "{name} is a scale, which has no right answer",
         "{name} est une échelle, qui n’a pas de bonne réponse",
     ),
+    (
+        "fill in both cells, or remove the row",
+        "remplissez les deux cases, ou retirez la ligne",
+    ),
     ("a measure is no number", "une mesure n’est pas un nombre"),
     (
         "the plan has no question about the participant {name}",

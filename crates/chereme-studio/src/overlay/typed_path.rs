@@ -43,8 +43,17 @@ fn why_not(what: Choose, path: &Path) -> Option<(Text, PathBuf)> {
     let missing = |there: bool| (!there).then(|| (words::PATH_MISSING, path.to_owned()));
     match what {
         Choose::Files | Choose::Answers => missing(path.exists()),
-        Choose::Questionnaire | Choose::Report => None,
-        Choose::Corpus | Choose::Merge | Choose::Media(..) => missing(path.is_file()),
+        Choose::Questionnaire
+        | Choose::Report
+        | Choose::SavePlan
+        | Choose::AnswersTable
+        | Choose::Disagreements => None,
+        Choose::Corpus
+        | Choose::Merge
+        | Choose::Media(..)
+        | Choose::Trials
+        | Choose::Columns
+        | Choose::Plan => missing(path.is_file()),
         Choose::Folder | Choose::CorpusOfFolder => missing(path.is_dir()),
         Choose::NewCorpus | Choose::Copy => {
             let target = with_extension(path.to_owned());
@@ -69,7 +78,13 @@ fn button_text(what: Choose) -> Text {
         | Choose::Media(..)
         | Choose::Questionnaire
         | Choose::Answers
-        | Choose::Report => words::PATH_CHOOSE,
+        | Choose::Report
+        | Choose::Trials
+        | Choose::Columns
+        | Choose::Plan
+        | Choose::SavePlan
+        | Choose::AnswersTable
+        | Choose::Disagreements => words::PATH_CHOOSE,
     }
 }
 

@@ -17,6 +17,7 @@ pub(crate) mod library;
 pub(crate) mod map;
 mod notated;
 pub(crate) mod recombine;
+mod saved;
 pub(crate) mod search;
 pub(crate) mod stage;
 pub(crate) mod studies;

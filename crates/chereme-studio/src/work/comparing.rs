@@ -1,8 +1,9 @@
 //! Jobs that compare annotators with each other.
 
+use std::path::PathBuf;
 use std::sync::Arc;
 
-use chereme_corpus::AgreeOptions;
+use chereme_corpus::{AgreeOptions, Agreement};
 
 use super::{About, Job, Lane, Outcome};
 use crate::words::agreement as words;
@@ -19,6 +20,14 @@ pub(crate) fn agree(options: AgreeOptions) -> Job {
     Job::new(COMPARE, move |corpus, progress| {
         let found = corpus.agree(&options, progress)?;
         Ok(Outcome::Agreed(Arc::new(found)))
+    })
+}
+
+/// Writes the disagreements as a table.
+pub(crate) fn write(found: Arc<Agreement>, to: PathBuf, force: bool) -> Job {
+    Job::new(About::WRITE, move |_, _| {
+        found.write_disagreements(&to, force)?;
+        Ok(Outcome::DisagreementsWritten)
     })
 }
 

@@ -4,7 +4,9 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::study::report::Report;
-use chereme_corpus::study::{AnswersReport, Questionnaire, StudyClip, StudyOverview};
+use chereme_corpus::study::{
+    AnswerList, AnswersReport, NamedText, Questionnaire, StudyClip, StudyOverview,
+};
 use chereme_corpus::{
     Adjudicated, Agreement, AnnotateReport, Answer, Around, CheckReport, Choice, CueSlips, Curves,
     Deleted, Details, ExportReport, Expressions, FitReport, ImportReport, MadePart, MergeReport,
@@ -77,6 +79,16 @@ pub(crate) enum Outcome {
     QuestionnaireBuilt(Box<Questionnaire>),
     /// Answers to a study were imported.
     AnswersImported(Box<AnswersReport>),
+    /// The answers to a study one by one.
+    AnswersListed(Arc<AnswerList>),
+    /// Answers to a study were written as a table.
+    AnswersWritten,
+    /// The plan of a study was written.
+    PlanWritten,
+    /// A file for the form of a study was read.
+    StudyText(NamedText),
+    /// The disagreements of two annotators were written.
+    DisagreementsWritten,
     /// The report of a study was made.
     Reported(Arc<Report>),
     /// Whether the desktop has a program that opened a file.

@@ -5,9 +5,10 @@ use std::process::{Command, Stdio};
 use std::sync::Arc;
 use std::time::Duration;
 
-use chereme_corpus::study::QuestionnaireOptions;
+use chereme_corpus::Corpus;
 use chereme_corpus::study::plan::Plan;
 use chereme_corpus::study::report::Report;
+use chereme_corpus::study::{AnswersOptions, QuestionnaireOptions};
 
 use super::{About, Job, Lane, Outcome};
 use crate::words::{Language, studies as words};
@@ -48,13 +49,25 @@ pub(crate) fn clip(text: String) -> Job {
     })
 }
 
-/// Stores a plan, after each of its clips was made once.
-pub(crate) fn plan(plan: Plan) -> Job {
+/// Reads a file for the form of a study.
+pub(crate) fn read(path: PathBuf) -> Job {
+    Job::new(REPORT, move |_, _| {
+        let text = Corpus::read_study_text(&path)?;
+        Ok(Outcome::StudyText(text))
+    })
+}
+
+/// Stores a plan, after each of its clips was made once, with the distances from a condition if one is given.
+pub(crate) fn plan(plan: Plan, distance_from: Option<String>) -> Job {
     let about = About {
         task: words::TASK_PLAN,
         ..CHANGE
     };
     Job::new(about, move |corpus, progress| {
+        let mut plan = plan;
+        if let Some(condition) = &distance_from {
+            corpus.measure_distances(&mut plan, condition, progress)?;
+        }
         let done = corpus.plan_study(&plan, progress)?;
         Ok(Outcome::Planned(done.plan.name))
     })
@@ -72,14 +85,43 @@ pub(crate) fn build(name: String, to: PathBuf, options: QuestionnaireOptions) ->
     })
 }
 
-/// Imports answers to a study.
-pub(crate) fn import(name: String, paths: Vec<PathBuf>) -> Job {
+/// Writes the plan of a study as a file.
+pub(crate) fn write_plan(name: String, to: PathBuf, force: bool) -> Job {
+    Job::new(WRITE, move |corpus, _| {
+        corpus.export_plan(&name, &to, force)?;
+        Ok(Outcome::PlanWritten)
+    })
+}
+
+/// Lists the answers to a study.
+pub(crate) fn answers(name: String) -> Job {
+    Job::new(REPORT, move |corpus, _| {
+        let found = corpus.study_answers(&name)?;
+        Ok(Outcome::AnswersListed(Arc::new(found)))
+    })
+}
+
+/// Writes the answers to a study as a table.
+pub(crate) fn write_answers(name: String, to: PathBuf, force: bool) -> Job {
+    Job::new(WRITE, move |corpus, _| {
+        corpus.export_answers(&name, &to, force)?;
+        Ok(Outcome::AnswersWritten)
+    })
+}
+
+/// Deletes a participant of a study with all answers.
+pub(crate) fn forget(name: String, code: String) -> Job {
+    Job::change(move |corpus, _| corpus.forget_participant(&name, &code))
+}
+
+/// Imports answers to a study, or tries it.
+pub(crate) fn import(name: String, paths: Vec<PathBuf>, options: AnswersOptions) -> Job {
     let about = About {
         task: words::TASK_ANSWERS,
         ..CHANGE
     };
     Job::new(about, move |corpus, progress| {
-        let done = corpus.import_answers(&name, &paths, progress)?;
+        let done = corpus.import_answers_by(&name, &paths, &options, progress)?;
         Ok(Outcome::AnswersImported(Box::new(done)))
     })
 }

@@ -1,6 +1,7 @@
 //! Shared parts of the tests that drive the window.
 #![allow(dead_code, unreachable_pub, reason = "each test uses some of it")]
 
+pub mod studies;
 pub mod tiers;
 
 use std::path::{Path, PathBuf};

@@ -80,10 +80,33 @@ pub(in crate::commands) const WORDS: Words = Words {
             "Remplacer des fichiers qui existent déjà",
         ),
         (
-            "Write all answers as a table (.csv), one answer a row",
-            "Écrire toutes les réponses dans un tableau (.csv), une réponse par ligne",
+            "List the answers one by one, or write all of them as a table",
+            "Montrer les réponses une à une, ou les écrire toutes dans un tableau",
         ),
-        ("The table to write", "Le tableau à écrire"),
+        (
+            "Questions without an answer are listed, too: a participant passed over them, for example because the browser could not show the film, or did not get that far. A table (.csv) has one answer a row, and import reads it again.",
+            "Les questions sans réponse sont montrées aussi : un participant les a passées, par exemple parce que le navigateur n’a pas pu montrer le film, ou n’est pas allé jusque-là. Un tableau (.csv) a une réponse par ligne, et l’importation le relit.",
+        ),
+        (
+            "The table to write (.csv), with all answers",
+            "Le tableau à écrire (.csv), avec toutes les réponses",
+        ),
+        (
+            "Only the answers of this participant",
+            "Seulement les réponses de ce participant",
+        ),
+        (
+            "Only answers whose item, condition, part or question contains these words",
+            "Seulement les réponses dont l’élément, la condition, la partie ou la question contient ces mots",
+        ),
+        (
+            "Only questions without an answer",
+            "Seulement les questions sans réponse",
+        ),
+        (
+            "Report what would be imported, and the use of each column, and store nothing",
+            "Montrer ce qui serait importé et l’usage de chaque colonne, sans rien enregistrer",
+        ),
         (
             "Delete a participant with all answers, because the person asks for it",
             "Supprimer un participant avec toutes ses réponses, parce que la personne le demande",
@@ -168,6 +191,14 @@ pub(in crate::commands) const WORDS: Words = Words {
             "{files} : {n} nouveaux, {more} remplacés, {same} inchangés ; {count} réponses enregistrées",
         ),
         (
+            "nothing was stored: this was a dry run",
+            "rien n’a été enregistré : c’était un essai",
+        ),
+        (
+            "{people}, {n} to the end; {answers} answers, {m} passed over, {k} not reached",
+            "{people}, dont {n} jusqu’à la fin ; {answers} réponses, {m} passées, {k} non atteintes",
+        ),
+        (
             "wrote {n} answers to {path}",
             "{n} réponses écrites dans {path}",
         ),
@@ -197,6 +228,15 @@ pub(in crate::commands) const WORDS: Words = Words {
         ),
     ],
     titles: &[
+        ("column", "colonne"),
+        ("means", "sens"),
+        ("cells", "cases"),
+        ("example", "exemple"),
+        ("stands for", "représente"),
+        ("participant", "participant"),
+        ("place", "place"),
+        ("answer", "réponse"),
+        ("plays", "lectures"),
         ("part", "partie"),
         ("parts", "parties"),
         ("role", "rôle"),

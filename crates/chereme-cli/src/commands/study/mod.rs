@@ -1,16 +1,19 @@
 //! `chereme study`: perceptual studies, from the plan to the answers.
 
+mod answers;
 mod french;
 mod report;
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::Result;
 use chereme_corpus::study::plan::{
     Design, Order, Plan, Question, QuestionKind, Texts, Viewing, text_in,
 };
-use chereme_corpus::study::{AnswersFile, QuestionnaireOptions, StudyRequest, words};
+use chereme_corpus::study::{
+    AnswersFile, AnswersOptions, ColumnUse, QuestionnaireOptions, StudyRequest, words,
+};
 use chereme_corpus::{Corpus, FileStatus, Progress, Step};
 use clap::{Subcommand, ValueEnum};
 
@@ -34,6 +37,7 @@ Examples:
   chereme study build lsf.chereme places --to places/
   chereme study import lsf.chereme places answers/
   chereme study import lsf.chereme places limesurvey.csv --columns columns.csv
+  chereme study answers lsf.chereme places --participant p7 --missing
   chereme study answers lsf.chereme places --to answers.csv
   chereme study report lsf.chereme places --to report.html")]
 pub(crate) struct Args {
@@ -100,20 +104,11 @@ enum Action {
         /// The meaning of the columns of tables with one participant a row (.csv)
         #[arg(long, value_name = "FILE")]
         columns: Option<PathBuf>,
-    },
-    /// Write all answers as a table (.csv), one answer a row
-    Answers {
-        /// The corpus
-        corpus: PathBuf,
-        /// The name of the study
-        name: String,
-        /// The table to write
-        #[arg(long, value_name = "FILE")]
-        to: PathBuf,
-        /// Replace a file that exists already
+        /// Report what would be imported, and the use of each column, and store nothing
         #[arg(long)]
-        force: bool,
+        dry_run: bool,
     },
+    Answers(answers::Args),
     Report(report::Args),
     /// Delete a participant with all answers, because the person asks for it
     ///
@@ -210,7 +205,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
             name,
             files,
             columns,
-        } => import(cli, (corpus, name), (files, columns.as_deref()), output),
+            dry_run,
+        } => {
+            let columns = columns.as_deref().map(Corpus::read_study_text);
+            let options = AnswersOptions {
+                columns: columns.transpose()?,
+                dry_run: *dry_run,
+            };
+            import(cli, (corpus, name), (files, &options), output)
+        }
         other => act(cli, other, output).map(|()| ExitCode::SUCCESS),
     }
 }
@@ -267,16 +270,7 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
         }
         // Its exit code is its own.
         Action::Import { .. } => Ok(()),
-        Action::Answers {
-            corpus,
-            name,
-            to,
-            force,
-        } => {
-            let count = cli.open(corpus)?.export_answers(name, to, *force)?;
-            output.line(format!("wrote {count} answers to {}", to.display()))?;
-            output.document(serde_json::json!({ "path": to, "answers": count }))
-        }
+        Action::Answers(args) => answers::run(cli, args, output),
         Action::Report(args) => report::run(cli, args, output),
         Action::Forget { corpus, name, code } => {
             cli.open(corpus)?.forget_participant(name, code)?;
@@ -297,16 +291,17 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
 fn import(
     cli: &Cli,
     (corpus, name): (&PathBuf, &str),
-    (files, columns): (&[PathBuf], Option<&Path>),
+    (files, options): (&[PathBuf], &AnswersOptions),
     output: &mut Output,
 ) -> Result<ExitCode> {
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
     let progress = &mut Progress::new(&mut hear);
     let mut corpus = cli.open(corpus)?;
-    let report = corpus.import_answers_by(name, files, columns, progress)?;
+    let report = corpus.import_answers_by(name, files, options, progress)?;
     drop(bar);
     for file in &report.files {
+        columns(&file.columns, output)?;
         if file.findings.is_empty() && file.status != FileStatus::Refused {
             continue;
         }
@@ -328,12 +323,32 @@ fn import(
         report.answers
     ))?;
     let refused = |it: &AnswersFile| it.status == FileStatus::Refused;
+    if options.dry_run {
+        output.line("nothing was stored: this was a dry run")?;
+    }
     let code = match report.files.iter().all(refused) {
         true => ExitCode::FAILURE,
         false => ExitCode::SUCCESS,
     };
     output.document(report)?;
     Ok(code)
+}
+
+/// Prints the use of the columns of a table.
+fn columns(uses: &[ColumnUse], output: &mut Output) -> Result<()> {
+    if uses.is_empty() {
+        return Ok(());
+    }
+    let row = |it: &ColumnUse| {
+        let cells = [it.column.clone(), it.means.clone(), it.cells.to_string()];
+        let tail = [it.example.clone(), it.stands_for.clone()];
+        cells.into_iter().chain(tail).collect()
+    };
+    let rows: Vec<Vec<String>> = uses.iter().map(row).collect();
+    output.table(
+        &["column", "means", "cells", "example", "stands for"],
+        &rows,
+    )
 }
 
 fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Output) -> Result<()> {
@@ -366,6 +381,7 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
                     blocks: args.blocks,
                     between: args.between,
                 },
+                ..StudyRequest::default()
             };
             request.plan()?
         }

@@ -29,33 +29,60 @@ const BLUES: [[f64; 3]; 3] = [
     [12.0, 62.0, 117.0],
 ];
 
+/// A colour as red, green and blue, and whether letters on it are white.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shade {
+    /// Red, green and blue.
+    pub rgb: [u8; 3],
+    /// Whether white letters have more contrast on it than black ones.
+    pub is_dark: bool,
+}
+
+impl Shade {
+    /// Returns the colour of an answer on a scale: 0 is its low end, 1 its high end.
+    #[must_use]
+    pub fn of_scale(share: f64) -> Self {
+        Self::at(&SHADES, share)
+    }
+
+    /// Returns the colour of a cell of a table: 0 is no answer, 1 all of them.
+    #[must_use]
+    pub fn of_table(share: f64) -> Self {
+        Self::at(&BLUES, share)
+    }
+
+    /// Returns the colour at a share of the path through some shades.
+    fn at(shades: &[[f64; 3]], share: f64) -> Self {
+        let at = share.clamp(0.0, 1.0) * (shades.len() - 1) as f64;
+        let low = (at.floor() as usize).min(shades.len() - 2);
+        let mix = |n: usize| {
+            let [from, to] = [shades[low][n], shades[low + 1][n]];
+            (from + (to - from) * (at - low as f64)).round()
+        };
+        let rgb = [mix(0), mix(1), mix(2)];
+        let linear = rgb.map(|it| {
+            let it = it / 255.0;
+            if it <= 0.03928 {
+                it / 12.92
+            } else {
+                ((it + 0.055) / 1.055).powf(2.4)
+            }
+        });
+        // Relative luminance (WCAG 2.1): below 0.179 white letters have more contrast than black ones.
+        let light = 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
+        Self {
+            rgb: rgb.map(|it| it as u8),
+            is_dark: light < 0.179,
+        }
+    }
+}
+
 /// Returns the colour at a share of the path through some shades, and the colour of letters on it.
 fn shade(shades: &[[f64; 3]], share: f64) -> (String, &'static str) {
-    let at = share.clamp(0.0, 1.0) * (shades.len() - 1) as f64;
-    let low = (at.floor() as usize).min(shades.len() - 2);
-    let mix = |n: usize| {
-        let [from, to] = [shades[low][n], shades[low + 1][n]];
-        (from + (to - from) * (at - low as f64)).round()
-    };
-    let rgb = [mix(0), mix(1), mix(2)];
-    let linear = rgb.map(|it| {
-        let it = it / 255.0;
-        if it <= 0.03928 {
-            it / 12.92
-        } else {
-            ((it + 0.055) / 1.055).powf(2.4)
-        }
-    });
-    // Relative luminance (WCAG 2.1): below 0.179 white letters have more contrast than black ones.
-    let light = 0.2126 * linear[0] + 0.7152 * linear[1] + 0.0722 * linear[2];
-    let letters = if light < 0.179 { "#fff" } else { "#000" };
-    (
-        format!(
-            "#{:02x}{:02x}{:02x}",
-            rgb[0] as u8, rgb[1] as u8, rgb[2] as u8
-        ),
-        letters,
-    )
+    let Shade { rgb, is_dark } = Shade::at(shades, share);
+    let letters = if is_dark { "#fff" } else { "#000" };
+    let [red, green, blue] = rgb;
+    (format!("#{red:02x}{green:02x}{blue:02x}"), letters)
 }
 
 /// A figure that grows by elements.

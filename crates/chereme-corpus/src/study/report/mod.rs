@@ -25,6 +25,8 @@ use crate::error::Result;
 use super::answers::Participant;
 use super::plan::{Exclusion, Expectation, Plan, QuestionKind, Texts};
 
+pub use charts::Shade;
+
 /// The settings of a report.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ReportOptions {

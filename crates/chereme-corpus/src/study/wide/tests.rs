@@ -37,7 +37,7 @@ fn map() -> ColumnMap {
 fn people(text: &str) -> (Vec<Participant>, Findings) {
     let mut findings = Findings::default();
     let by = (&map(), &plan(), "sha");
-    let read = read(text, "answers.csv", by, &mut findings).expect("read");
+    let (read, _) = read(text, "answers.csv", by, &mut findings).expect("read");
     (
         read.into_iter().map(|it| it.participant).collect(),
         findings,
@@ -172,4 +172,41 @@ fn maps_that_fit_neither_plan_nor_table_are_refused_with_their_line() {
         shown.contains("does not have: \"p2\"; did you mean"),
         "{shown}"
     );
+}
+
+#[test]
+fn the_use_of_each_column_is_shown_before_anything_is_stored() {
+    let text = "id,r1,p1,r2,p2,since,other\n,A5,left,,,,x\n12,A1,,2,,,y\n";
+    let by = (&map(), &plan(), "sha");
+    let (_, uses) = read(text, "a.csv", by, &mut Findings::default()).expect("read");
+    let shown: Vec<String> = uses
+        .iter()
+        .map(|it| {
+            let (column, means, cells) = (&it.column, &it.means, it.cells);
+            format!("{column}|{means}|{cells}|{}|{}", it.example, it.stands_for)
+        })
+        .collect();
+    assert_eq!(
+        shown,
+        [
+            "id|participant|1|12|",
+            "r1|BOL · captured · realism|2|A5|5",
+            "p1|BOL · captured · place|1|left|",
+            "r2|BOL · made · realism|1|2|",
+            "p2|BOL · made · place|0||",
+            "since|profile.level|0||",
+            "other||2|x|",
+        ]
+    );
+}
+
+#[test]
+fn every_wrong_row_of_a_map_is_named() {
+    let text =
+        "column,item,condition,question,means\nid,,,,participant\nr1,BOL,mad,realism,\nx,,,,age\n";
+    let Err(Error::Several { errors }) = ColumnMap::read(text, "m.csv", &plan()) else {
+        panic!("two rows are wrong")
+    };
+    let places: Vec<_> = errors.iter().filter_map(Error::place).collect();
+    assert_eq!(places, ["m.csv, line 3", "m.csv, line 4"]);
 }

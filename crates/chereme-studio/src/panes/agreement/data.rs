@@ -4,7 +4,7 @@ use std::fmt::Display;
 
 use chereme_corpus::{
     AgreeOptions, Agreement, Contents, Disagreement, DisagreementKind, DisagreementSide, Figure,
-    MEASURES,
+    MEASURES, Name, Quartiles,
 };
 use chereme_motion::{Instant, Span};
 
@@ -23,6 +23,14 @@ pub(super) struct Choices {
     /// The share of the longer unit that must overlap for a match, in percent.
     pub(super) overlap: u8,
     pub(super) whole: bool,
+    /// Whether the tiers are named by texts: a name, a pattern with a star, `annotator:NAME`, or `tier:12`.
+    pub(super) by_text: bool,
+    /// These texts, once they are typed.
+    pub(super) texts: [String; 2],
+    /// How many draws intervals and the chance of gamma come from, and their seed.
+    pub(super) draws: usize,
+    pub(super) samples: usize,
+    pub(super) seed: u64,
 }
 
 impl Default for Choices {
@@ -34,6 +42,11 @@ impl Default for Choices {
             tolerance_ms: 80,
             overlap: 60,
             whole: false,
+            by_text: false,
+            texts: [String::new(), String::new()],
+            draws: 1000,
+            samples: 30,
+            seed: 1,
         }
     }
 }
@@ -46,11 +59,22 @@ impl Choices {
             let found = contents.tiers.iter().find(|it| Some(it.row.id) == id);
             found.map(|it| it.row.name.clone())
         };
-        let names = [named(a)?, named(b)?];
-        let texts = match self.everywhere {
-            true => names.clone(),
-            false => [a?, b?].map(|id| format!("tier:{id}")),
+        let typed = self.texts.each_ref().map(|it| it.trim().to_owned());
+        if self.by_text && typed.iter().any(String::is_empty) {
+            return None;
+        }
+        let (names, texts) = match (self.by_text, self.everywhere) {
+            (true, _) => (typed.clone(), typed),
+            (false, true) => {
+                let names = [named(a)?, named(b)?];
+                (names.clone(), names)
+            }
+            (false, false) => {
+                let numbers = [a?, b?].map(|id| format!("tier:{id}"));
+                ([named(a)?, named(b)?], numbers)
+            }
         };
+        let open = Name::Number(contents.recording.id);
         let [first, second] = texts;
         let wanted = |it: &&str| self.gamma || !it.starts_with("gamma");
         let measures = MEASURES.iter().copied().filter(wanted);
@@ -59,10 +83,26 @@ impl Choices {
             share: f64::from(self.overlap) / 100.0,
             tolerance_us: self.tolerance_ms * 1000,
             whole: self.whole,
+            draws: self.draws,
+            samples: self.samples,
+            seed: self.seed,
+            recording: (self.by_text && !self.everywhere).then_some(open),
             ..AgreeOptions::new(first, second)
         };
         Some((options, names))
     }
+}
+
+/// Returns how much later the second annotator starts and ends, in milliseconds: medians with quartiles.
+pub(super) fn delays(found: &Agreement, language: Language) -> Option<String> {
+    let quartiles = |it: &Quartiles| {
+        let [q1, median, q3] = [it.q1, it.median, it.q3].map(|it| format!("{:+.0}", it * 1000.0));
+        format!("{median} ({q1} … {q3})")
+    };
+    let (start, end) = found.onset_s.as_ref().zip(found.offset_s.as_ref())?;
+    let (start, end) = (quartiles(start), quartiles(end));
+    let values: [(&str, &dyn Display); 2] = [("start", &start), ("end", &end)];
+    Some(fill(words::DELAYS.of(language), &values))
 }
 
 /// The kinds of disagreements in sight.

@@ -5,6 +5,7 @@ mod list;
 mod tables;
 
 use std::collections::BTreeSet;
+use std::path::PathBuf;
 use std::sync::Arc;
 
 use chereme_corpus::{Adjudicated, AgreeOptions, Agreement, Contents, alike_tiers};
@@ -13,10 +14,12 @@ use eframe::egui::{
 };
 
 use self::data::{Choices, Key, Kinds, Order, Row};
+use super::saved::SavedTo;
 use super::{Acted, Pane, combo, reach_focus};
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
+use crate::file_dialogs::Choose;
 use crate::overlay::remedy;
 use crate::script::edit;
 use crate::words::{Language, agreement as words, fill, shell, spoken};
@@ -80,6 +83,10 @@ pub(crate) struct AgreementPane {
     proposed: String,
     writing: Option<WorkId>,
     written: Option<Adjudicated>,
+    /// The texts that name tiers, while they are typed.
+    typing: [String; 2],
+    /// The table of disagreements.
+    saved: SavedTo,
 }
 
 impl AgreementPane {
@@ -112,7 +119,7 @@ impl AgreementPane {
     /// Requests the comparison if its inputs changed.
     fn follow(&mut self, ui: &Ui, seen: &PaneInput<'_>, contents: &Contents, out: &mut Outbox) {
         let Some((options, names)) = self.choices.options(contents) else {
-            if !self.choices.everywhere {
+            if !self.choices.everywhere || self.choices.by_text {
                 (self.found, self.asked, self.wrong) = (None, None, None);
             }
             return;
@@ -173,16 +180,26 @@ impl AgreementPane {
         let tiers: Vec<(Option<i64>, String)> =
             tiers.map(|it| (Some(it.row.id), named(it))).collect();
         let [first, second] = &mut self.choices.tiers;
-        ui.horizontal_wrapped(|ui| {
-            combo::named(ui, seen.say(words::FIRST), first, &tiers);
-            combo::named(ui, seen.say(words::SECOND), second, &tiers);
-        });
+        match self.choices.by_text {
+            true => self.typed(ui, seen),
+            false => drop(ui.horizontal_wrapped(|ui| {
+                combo::named(ui, seen.say(words::FIRST), first, &tiers);
+                combo::named(ui, seen.say(words::SECOND), second, &tiers);
+            })),
+        }
         ui.horizontal_wrapped(|ui| {
             let swap = ui.button(seen.say(words::SWAP));
             if swap.on_hover_text(seen.say(words::SWAP_TIP)).clicked() {
                 self.choices.tiers.reverse();
+                self.choices.texts.reverse();
+                self.typing.reverse();
             }
             for (on, text, tip) in [
+                (
+                    &mut self.choices.by_text,
+                    words::BY_TEXT,
+                    words::BY_TEXT_TIP,
+                ),
                 (
                     &mut self.choices.everywhere,
                     words::EVERYWHERE,
@@ -208,6 +225,74 @@ impl AgreementPane {
             });
             ui.checkbox(&mut self.choices.whole, seen.say(words::WHOLE))
                 .on_hover_text(seen.say(words::WHOLE_TIP));
+            let Choices {
+                draws,
+                samples,
+                seed,
+                ..
+            } = &mut self.choices;
+            for (field, text) in [
+                (
+                    DragValue::new(draws).range(0..=100_000),
+                    words::DRAWS_OF_INTERVALS,
+                ),
+                (
+                    DragValue::new(samples).range(30..=10_000),
+                    words::DRAWS_OF_GAMMA,
+                ),
+                (DragValue::new(seed), words::SEED),
+            ] {
+                ui.horizontal_wrapped(|ui| {
+                    let label = ui.label(seen.say(text));
+                    ui.add(field).labelled_by(label.id);
+                });
+            }
+        });
+    }
+
+    /// Shows the lines of tiers that are named by texts; a text counts once it is complete.
+    fn typed(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+        let lines = self.typing.iter_mut().zip(&mut self.choices.texts);
+        for ((typed, counts), name) in lines.zip([words::FIRST, words::SECOND]) {
+            let name = seen.say(name);
+            ui.horizontal_wrapped(|ui| {
+                ui.weak(name);
+                let hint = seen.say(words::BY_TEXT_HINT);
+                let shown = edit::line(ui, typed, |field| {
+                    field.hint_text(hint).desired_width(240.0)
+                });
+                let response = shown.response.response;
+                response.widget_info(|| WidgetInfo::labeled(Role::TextInput, true, name));
+                if response.lost_focus() {
+                    counts.clone_from(typed);
+                }
+            });
+        }
+    }
+
+    /// Takes the path of a file chooser.
+    pub(crate) fn take_paths(&mut self, paths: Vec<PathBuf>) {
+        if let Some(path) = paths.first() {
+            self.saved.to = path.display().to_string();
+        }
+    }
+
+    /// Shows the file for the table of disagreements, and the button that writes it.
+    fn save(
+        &mut self,
+        ui: &mut Ui,
+        seen: &PaneInput<'_>,
+        found: &Arc<Agreement>,
+        out: &mut Outbox,
+    ) {
+        let header = CollapsingHeader::new(seen.say(words::SAVE_TABLE)).id_salt("table");
+        header.show(ui, |ui| {
+            let named = (words::TABLE_FILE, words::WRITE_TABLE, Choose::Disagreements);
+            let to = self.saved.show(ui, seen, named, "disagreements.csv", out);
+            if let Some((to, force)) = to {
+                let job = comparing::write(found.clone(), to, force);
+                self.saved.saving = Some(out.work(job));
+            }
         });
     }
 
@@ -380,6 +465,7 @@ impl Pane for AgreementPane {
             };
             tables::measures(ui, seen, &found);
             self.third(ui, seen, contents, out);
+            self.save(ui, seen, &found, out);
             self.views(ui, seen, &found);
             let height = ui.available_height().max(LEAST);
             let width = ui.available_width();
@@ -420,6 +506,10 @@ impl Pane for AgreementPane {
                     });
                 }
                 Ok(_) => {}
+            }
+        } else if self.saved.saving.take_if(|it| *it == id).is_some() {
+            if matches!(ended, Ok(Outcome::DisagreementsWritten)) {
+                self.saved.take();
             }
         } else if self.writing.take_if(|it| *it == id).is_some()
             && let Ok(Outcome::Adjudicated(done)) = ended

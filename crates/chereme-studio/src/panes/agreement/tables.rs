@@ -25,6 +25,9 @@ pub(super) fn measures(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
         ("equal", &counts.equal),
     ];
     ui.label(fill(seen.say(words::COUNTS), &values));
+    if let Some(delays) = data::delays(found, seen.language) {
+        ui.weak(delays);
+    }
     // A title does not wrap, and a long one would widen the whole pane.
     let header = CollapsingHeader::new(seen.say(words::MEASURES))
         .id_salt("measures")
@@ -154,6 +157,8 @@ pub(super) fn confusion(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
 pub(super) fn recordings(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
     let titles = [
         words::RECORDING,
+        words::FIRST,
+        words::SECOND,
         words::COLUMN_A,
         words::COLUMN_B,
         words::MATCHED,
@@ -169,6 +174,8 @@ pub(super) fn recordings(ui: &mut Ui, seen: &PaneInput<'_>, found: &Agreement) {
         };
         vec![
             it.recording.clone(),
+            it.tier_a.clone(),
+            it.tier_b.clone(),
             it.counts.units_a.to_string(),
             it.counts.units_b.to_string(),
             it.counts.matched.to_string(),

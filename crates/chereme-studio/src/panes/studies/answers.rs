@@ -3,10 +3,12 @@
 use std::path::PathBuf;
 
 use chereme_corpus::FileStatus;
-use chereme_corpus::study::{AnswersReport, StudyOverview};
-use eframe::egui::{Button, Ui};
+use chereme_corpus::study::{AnswersOptions, AnswersReport, ColumnUse, NamedText, StudyOverview};
+use eframe::egui::{Button, CollapsingHeader, Grid, ScrollArea, Ui};
 
-use super::{Studies, path_field, progress};
+use super::draft::{remove, text_block};
+use super::{Studies, answer_list, path_field, progress};
+use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
 use crate::panes::import::Paths;
@@ -23,6 +25,11 @@ pub(super) struct Form {
     paths: Paths,
     /// Files that were chosen or dropped together.
     several: Vec<PathBuf>,
+    /// The map of columns of tables with one participant a row, and the name of its file.
+    map: String,
+    map_file: String,
+    /// Whether the import that runs, or the last one, is only tried.
+    tried: bool,
     pub(super) importing: Option<WorkId>,
     pub(super) report: Option<AnswersReport>,
 }
@@ -35,6 +42,27 @@ impl Form {
             [one] => (self.path, self.several) = (one.display().to_string(), Vec::new()),
             _ => (self.path, self.several) = (String::new(), paths),
         }
+    }
+
+    /// Takes a map of columns that was read from a file.
+    pub(super) fn take_map(&mut self, it: &NamedText) {
+        let name = std::path::Path::new(&it.file).file_name();
+        let name = name.map(|it| it.to_string_lossy().into_owned());
+        self.map_file = name.unwrap_or_else(|| it.file.clone());
+        self.map = it.text.trim_start_matches('\u{feff}').to_owned();
+        self.report = None;
+    }
+
+    fn options(&self, dry_run: bool) -> AnswersOptions {
+        let file = match self.map_file.as_str() {
+            "" => "map",
+            name => name,
+        };
+        let columns = (!self.map.trim().is_empty()).then(|| NamedText {
+            text: self.map.clone(),
+            file: file.to_owned(),
+        });
+        AnswersOptions { columns, dry_run }
     }
 
     fn files(&self) -> Vec<PathBuf> {
@@ -73,6 +101,25 @@ pub(super) fn show(
             ui.small(path.display().to_string());
         }
     }
+    let header = CollapsingHeader::new(seen.say(words::MAP_HEADER)).id_salt("map");
+    let open = (!form.map.trim().is_empty()).then_some(true);
+    header.open(open).show(ui, |ui| {
+        ui.weak(seen.say(words::MAP_HELP));
+        let titles = "column,item,condition,part,role,question,means,values";
+        text_block(ui, seen.say(words::MAP_HEADER), titles, &mut form.map);
+        ui.horizontal_wrapped(|ui| {
+            if ui.button(seen.say(words::CHOOSE_MAP)).clicked() {
+                out.send(Command::Choose(Choose::Columns));
+            }
+            if !form.map.is_empty() && remove(ui, seen, seen.say(words::MAP_HEADER)) {
+                form.map.clear();
+                form.map_file.clear();
+            }
+            if !form.map_file.is_empty() {
+                ui.weak(&form.map_file);
+            }
+        });
+    });
     if !progress(ui, seen, form.importing, words::TASK_ANSWERS, out) {
         let files = form.files();
         let locked = seen.snapshot.is_read_only();
@@ -81,16 +128,66 @@ pub(super) fn show(
             true => shell::READ_ONLY_WHY,
             false => words::NEEDS_FILES,
         };
-        let import = ui.add_enabled(ready, Button::new(seen.say(words::IMPORT)));
-        if import.on_disabled_hover_text(seen.say(why)).clicked() {
-            let job = studying::import(it.plan.name.clone(), files);
+        let mut wanted = None;
+        ui.horizontal_wrapped(|ui| {
+            for (dry_run, text) in [(false, words::IMPORT), (true, words::TRY_IMPORT)] {
+                let button = ui.add_enabled(ready, Button::new(seen.say(text)));
+                if button.on_disabled_hover_text(seen.say(why)).clicked() {
+                    wanted = Some(dry_run);
+                }
+            }
+        });
+        if let Some(dry_run) = wanted {
+            let job = studying::import(it.plan.name.clone(), files, form.options(dry_run));
             (form.importing, form.report) = (Some(out.work(job)), None);
+            form.tried = dry_run;
             pane.clear();
         }
     }
     if let Some(report) = &pane.forms.answers.report {
+        if pane.forms.answers.tried {
+            ui.strong(seen.say(words::TRIED));
+        }
         imported(ui, seen, report);
     }
+    answer_list::show(pane, ui, seen, it, out);
+}
+
+/// Shows the use of each column of a table.
+fn columns(ui: &mut Ui, seen: &PaneInput<'_>, id: &str, uses: &[ColumnUse]) {
+    let area = ScrollArea::both()
+        .id_salt(("columns", id))
+        .max_height(220.0);
+    area.auto_shrink([false, true]).show(ui, |ui| {
+        Grid::new(("uses", id)).striped(true).show(ui, |ui| {
+            for title in [
+                words::COLUMN_COLUMN,
+                words::COLUMN_MEANS,
+                words::COLUMN_CELLS,
+                words::COLUMN_EXAMPLE,
+            ] {
+                ui.weak(seen.say(title));
+            }
+            ui.end_row();
+            for it in uses {
+                ui.label(&it.column);
+                match it.means.as_str() {
+                    "" => ui.weak(seen.say(words::COLUMN_UNUSED)),
+                    means => ui.label(means),
+                };
+                ui.label(it.cells.to_string());
+                ui.label(match it.stands_for.as_str() {
+                    "" => it.example.clone(),
+                    value => {
+                        let values: [(&str, &dyn std::fmt::Display); 2] =
+                            [("code", &it.example), ("value", &value)];
+                        fill(seen.say(words::STANDS_FOR), &values)
+                    }
+                });
+                ui.end_row();
+            }
+        });
+    });
 }
 
 fn imported(ui: &mut Ui, seen: &PaneInput<'_>, report: &AnswersReport) {
@@ -109,6 +206,9 @@ fn imported(ui: &mut Ui, seen: &PaneInput<'_>, report: &AnswersReport) {
             ui.colored_label(seen.colours().trouble, text);
         } else if !file.findings.is_empty() {
             ui.label(&file.path);
+        }
+        if !file.columns.is_empty() {
+            columns(ui, seen, &file.path, &file.columns);
         }
         for finding in file.findings.iter().take(MOST) {
             let message = spoken(&finding.message, seen.language);

@@ -2,85 +2,15 @@
 
 use std::fmt::Display;
 
-use chereme_corpus::study::plan::{Design, Order, Plan, Question, QuestionKind};
+use chereme_corpus::study::plan::{
+    Comparison, Expectation, Hypothesis, Plan, Question, QuestionKind, Role, Selection, Trial,
+    text_in,
+};
 use chereme_corpus::study::report::{Compared, Group, Pair, Report, numbers};
-use chereme_corpus::study::{StudyOverview, StudyRequest, words as split};
+use chereme_corpus::study::{AnswerRow, StudyOverview};
 use chereme_corpus::words::reporting;
 
-use crate::words::{Language, fill, studies as words};
-
-/// A plan that is being written.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Draft {
-    pub(super) name: String,
-    pub(super) title: String,
-    pub(super) items: String,
-    /// The names and recipes of conditions; `{}` in a recipe stands for the item.
-    pub(super) conditions: Vec<[String; 2]>,
-    pub(super) questions: Vec<String>,
-    pub(super) scale: i64,
-    pub(super) order: Order,
-    pub(super) between: bool,
-    pub(super) blocks: u32,
-}
-
-impl Default for Draft {
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            title: String::new(),
-            items: String::new(),
-            conditions: vec![["captured".to_owned(), "{}".to_owned()]],
-            questions: vec!["realism".to_owned()],
-            scale: 5,
-            order: Order::default(),
-            between: false,
-            blocks: 1,
-        }
-    }
-}
-
-impl Draft {
-    /// Returns the study in the words of the library.
-    pub(super) fn request(&self) -> StudyRequest {
-        let filled = |text: &String| !text.trim().is_empty();
-        let conditions = self.conditions.iter().filter(|it| it.iter().all(filled));
-        let questions = self.questions.iter().filter(|it| filled(it));
-        StudyRequest {
-            name: self.name.trim().to_owned(),
-            title: filled(&self.title).then(|| self.title.trim().to_owned()),
-            items: split(&self.items),
-            conditions: conditions
-                .map(|[name, recipe]| (name.trim().to_owned(), recipe.trim().to_owned()))
-                .collect(),
-            trials: None,
-            questions: questions.map(|it| it.trim().to_owned()).collect(),
-            scale: self.scale,
-            design: Design {
-                order: self.order,
-                blocks: self.blocks,
-                between: self.between,
-                ..Design::default()
-            },
-        }
-    }
-
-    /// Adds an item, unless it is there.
-    pub(super) fn add_item(&mut self, item: &str) {
-        if split(&self.items).iter().any(|it| it == item) {
-            return;
-        }
-        let quoted = match item.contains(char::is_whitespace) {
-            true => format!("\"{item}\""),
-            false => item.to_owned(),
-        };
-        let before = self.items.trim_end();
-        self.items = match before.is_empty() {
-            true => quoted,
-            false => format!("{before} {quoted}"),
-        };
-    }
-}
+use crate::words::{Language, Text, fill, studies as words};
 
 /// Returns what stands below the name of a study.
 pub(super) fn about(it: &StudyOverview, language: Language) -> String {
@@ -106,41 +36,211 @@ pub(super) fn answers(question: &Question) -> String {
     }
 }
 
-/// A trial as a row: its place in the plan, its name, and its clip.
-pub(super) fn trials(plan: &Plan, language: Language) -> Vec<(String, String)> {
-    let row = |it: &chereme_corpus::study::plan::Trial| {
-        let values: [(&str, &dyn Display); 2] = [("item", &it.item), ("condition", &it.condition)];
-        (fill(words::TRIAL.of(language), &values), it.clip.clone())
+/// A trial as a row: its name, what stands below it, and its clip.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct TrialRow {
+    pub(super) name: String,
+    pub(super) about: String,
+    pub(super) clip: String,
+}
+
+/// Returns the trials of a plan as rows.
+pub(super) fn trials(plan: &Plan, language: Language) -> Vec<TrialRow> {
+    let number = |value: f64| {
+        let text = numbers::number(value, 3, language);
+        let short = text.trim_end_matches('0').trim_end_matches(['.', ',']);
+        short.to_owned()
+    };
+    let row = |it: &Trial| {
+        let mut about = vec![it.clip.clone()];
+        if it.role != Role::Main {
+            about.push(role(it.role).of(language).to_owned());
+        }
+        if !it.part.is_empty() {
+            about.push(fill(words::OF_PART.of(language), &[("part", &it.part)]));
+        }
+        for (name, right) in &it.right {
+            let values: [(&str, &dyn Display); 2] = [("question", name), ("right", right)];
+            about.push(fill(words::RIGHT_IS.of(language), &values));
+        }
+        for (name, value) in &it.measures {
+            let value = number(*value);
+            let values: [(&str, &dyn Display); 2] = [("name", name), ("answers", &value)];
+            about.push(fill(words::ASKED.of(language), &values));
+        }
+        TrialRow {
+            name: trial_name(&it.item, &it.condition, language),
+            about: about.join(" · "),
+            clip: it.clip.clone(),
+        }
     };
     plan.trials.iter().map(row).collect()
 }
 
-/// Returns the answers to each question in each condition, as rows of a table.
-pub(super) fn groups(report: &Report, language: Language) -> Vec<Vec<String>> {
-    let row = |name: &str, group: &Group| {
-        let number = |value: Option<f64>, decimals| {
-            value.map_or_else(String::new, |it| numbers::number(it, decimals, language))
+/// Returns the name of a trial.
+pub(super) fn trial_name(item: &str, condition: &str, language: Language) -> String {
+    let values: [(&str, &dyn Display); 2] = [("item", &item), ("condition", &condition)];
+    match condition {
+        "" => item.to_owned(),
+        _ => fill(words::TRIAL.of(language), &values),
+    }
+}
+
+/// Returns the words for the use of a trial.
+pub(super) fn role(role: Role) -> Text {
+    match role {
+        Role::Training => words::TRAINING,
+        Role::Main => words::MAIN,
+        Role::Check => words::CHECK,
+    }
+}
+
+/// Returns an answer as a row: its name, and what stands below it.
+pub(super) fn answer(it: &AnswerRow, language: Language) -> (String, String) {
+    let answer = reporting::answer_text(it, language);
+    let trial = trial_name(&it.item, &it.condition, language);
+    let values: [(&str, &dyn Display); 4] = [
+        ("code", &it.participant),
+        ("trial", &trial),
+        ("question", &it.question),
+        ("answer", &answer),
+    ];
+    let name = fill(words::ANSWER_ROW.of(language), &values);
+    let mut about = Vec::new();
+    if let Some(n) = it.n {
+        let values: [(&str, &dyn Display); 2] = [("n", &n), ("block", &it.block)];
+        about.push(fill(words::ANSWER_PLACE.of(language), &values));
+    }
+    if !it.part.is_empty() {
+        about.push(fill(words::OF_PART.of(language), &[("part", &it.part)]));
+    }
+    if it.role != Role::Main {
+        about.push(role(it.role).of(language).to_owned());
+    }
+    match it.right {
+        Some(true) => about.push(words::RIGHT_ANSWER.of(language).to_owned()),
+        Some(false) => about.push(words::WRONG_ANSWER.of(language).to_owned()),
+        None => {}
+    }
+    if it.plays > 0 || it.ms > 0 {
+        let seconds = numbers::number(f64::from(it.ms) / 1000.0, 1, language);
+        let values: [(&str, &dyn Display); 2] = [("plays", &it.plays), ("s", &seconds)];
+        about.push(fill(words::ANSWER_TIMES.of(language), &values));
+    }
+    (name, about.join(" · "))
+}
+
+/// Returns a place of an error in the words of the window, if it says more than the message: a line, a trial, or a part
+/// of a plan.
+pub(super) fn place(place: &str, language: Language) -> Option<String> {
+    if let Some((file, line)) = place.rsplit_once(", line ") {
+        let file = match file {
+            "table" => words::TABLE.of(language),
+            "map" => words::MAP.of(language),
+            other => other,
         };
-        let own = group.description.as_ref();
-        let share = group.recognition;
-        vec![
-            name.to_owned(),
-            group.part.clone(),
-            group.condition.clone(),
-            group.answers.to_string(),
-            number(own.map(|it| it.mean), 3),
-            number(own.and_then(|it| it.sd), 3),
-            number(own.map(|it| it.median), 1),
-            share.map_or_else(String::new, |it| numbers::percent(it.share, language)),
-        ]
+        let values: [(&str, &dyn Display); 2] = [("file", &file), ("line", &line)];
+        return Some(fill(words::PLACE_LINE.of(language), &values));
+    }
+    if let Some(rest) = place.strip_prefix("trial ") {
+        return Some(fill(words::PLACE_TRIAL.of(language), &[("trial", &rest)]));
+    }
+    let (list, at) = place.split_once('/')?;
+    let n = at.parse::<usize>().ok()? + 1;
+    let text = match list {
+        "trials" => words::PLACE_TRIAL.of(language),
+        "questions" => words::QUESTION.of(language),
+        "hypotheses" => words::HYPOTHESIS.of(language),
+        "profile" => words::PLACE_PROFILE.of(language),
+        _ => return None,
     };
-    let of_question = |question: &chereme_corpus::study::report::QuestionReport| {
-        let answered = question.conditions.iter().filter(|it| it.answers > 0);
-        answered
-            .map(|it| row(&question.name, it))
-            .collect::<Vec<_>>()
+    Some(fill(text, &[("n", &n), ("trial", &n)]))
+}
+
+/// Returns the answers of a group as a row of a table.
+pub(super) fn group(name: String, group: &Group, language: Language) -> Vec<String> {
+    let number = |value: Option<f64>, decimals| {
+        value.map_or_else(String::new, |it| numbers::number(it, decimals, language))
     };
-    report.questions.iter().flat_map(of_question).collect()
+    let own = group.description.as_ref();
+    let share = group.recognition;
+    vec![
+        name,
+        group.answers.to_string(),
+        match group.cannot_say {
+            0 => String::new(),
+            n => n.to_string(),
+        },
+        number(own.map(|it| it.mean), 3),
+        number(own.and_then(|it| it.sd), 3),
+        number(own.map(|it| it.median), 1),
+        share.map_or_else(String::new, |it| numbers::percent(it.share, language)),
+    ]
+}
+
+/// Returns a sentence for each correlation of answers with a measure.
+pub(super) fn correlations(report: &Report, language: Language) -> Vec<String> {
+    let measured = report.comparisons.iter().filter_map(|it| {
+        let measure = it.measure.as_ref()?;
+        let number = |value: f64| numbers::number(value, 3, language);
+        let found = measure.spearman.found();
+        let ends = measure.interval.found();
+        let interval = ends.map_or_else(
+            || "–".to_owned(),
+            |it| format!("[{}; {}]", number(it.low), number(it.high)),
+        );
+        let values: [(&str, &dyn Display); 6] = [
+            ("measure", &measure.measure),
+            ("question", &it.question),
+            ("n", &measure.points.len()),
+            (
+                "rho",
+                &found.map_or_else(|| "–".to_owned(), |it| number(it.coefficient)),
+            ),
+            (
+                "p",
+                &found
+                    .and_then(|it| it.p)
+                    .map_or_else(|| "–".to_owned(), |it| numbers::p(it, language)),
+            ),
+            ("interval", &interval),
+        ];
+        Some(fill(words::CORRELATION.of(language), &values))
+    });
+    measured.collect()
+}
+
+/// Returns a hypothesis as a sentence.
+pub(super) fn hypothesis(it: &Hypothesis, language: Language) -> String {
+    let group = |it: &Selection| {
+        let all = it.parts.iter().chain(&it.items).chain(&it.conditions);
+        let all: Vec<&str> = all.map(String::as_str).collect();
+        match all.is_empty() {
+            true => words::ALL_TRIALS.of(language).to_owned(),
+            false => all.join(" "),
+        }
+    };
+    let joined = |groups: &[Selection], mark: &str| {
+        let groups: Vec<String> = groups.iter().map(group).collect();
+        groups.join(mark)
+    };
+    let expected = match (&it.compares, it.expects) {
+        (Comparison::Between(groups), Expectation::Difference) => joined(groups, " ≠ "),
+        (Comparison::Between(groups), Expectation::SameWithin(bound)) => {
+            let bound = numbers::number(bound, 3, language);
+            format!("{} (±{bound})", joined(groups, " ≈ "))
+        }
+        (Comparison::Trend(groups), _) => joined(groups, " < "),
+        (Comparison::Measure(name), _) => fill(words::WITH_MEASURE.of(language), &[("name", name)]),
+    };
+    let text = text_in(&it.text, language.code()).map(|it| format!(" – {it}"));
+    let values: [(&str, &dyn Display); 4] = [
+        ("name", &it.name),
+        ("question", &it.question),
+        ("expected", &expected),
+        ("text", &text.unwrap_or_default()),
+    ];
+    fill(words::HYPOTHESIS_LINE.of(language), &values)
 }
 
 /// Returns the comparisons of pairs of conditions, as rows of a table.
@@ -159,6 +259,11 @@ pub(super) fn comparisons(report: &Report, language: Language) -> Vec<Vec<String
             test.map_or_else(|| "–".to_owned(), |it| numbers::p(it.p_holm, language))
         };
         vec![
+            compared
+                .hypothesis
+                .as_ref()
+                .map(|it| it.name.clone())
+                .unwrap_or_default(),
             question,
             first,
             second,
@@ -214,33 +319,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_draft_makes_items_times_conditions() {
-        let mut draft = Draft {
-            name: " places ".to_owned(),
-            ..Draft::default()
-        };
-        for item in ["BOL", "CHAT", "BOL", "WEEK END"] {
-            draft.add_item(item);
-        }
-        assert_eq!(draft.items, "BOL CHAT \"WEEK END\"");
-        draft
-            .conditions
-            .push(["higher".to_owned(), "{} | place both by up 10cm".to_owned()]);
-        // A condition without a recipe is not finished.
-        draft.conditions.push(["lower".to_owned(), String::new()]);
-        draft.questions.push("gloss=items".to_owned());
-        let plan = draft.request().plan().expect("a plan");
-        assert_eq!((plan.name.as_str(), plan.trials.len()), ("places", 6));
-        assert_eq!(plan.questions.len(), 2);
-        let rows = trials(&plan, Language::English);
+    fn places_in_tables_and_plans_are_named_in_words() {
+        let of = |text: &str| place(text, Language::French);
+        assert_eq!(of("table, line 3").as_deref(), Some("tableau, ligne 3"));
+        assert_eq!(of("a.csv, line 12").as_deref(), Some("a.csv, ligne 12"));
         assert_eq!(
-            rows[3],
-            (
-                "CHAT, higher".to_owned(),
-                "CHAT | place both by up 10cm".to_owned()
-            )
+            of("trial 2 (BOL, higher)").as_deref(),
+            Some("essai 2 (BOL, higher)")
         );
-        assert_eq!(rows[4].1, "\"WEEK END\"");
+        assert_eq!(of("hypotheses/0").as_deref(), Some("Hypothèse 1"));
+        assert_eq!(of("a/b/c"), None);
+        assert_eq!(of("name"), None);
     }
 
     #[test]

@@ -1,31 +1,35 @@
 //! Studies: plans with a preview of each clip, the questionnaire, the answers, and the report.
 
+mod answer_list;
 mod answers;
 mod data;
 mod draft;
+mod drafted;
+mod figures;
+mod hypotheses;
 mod questionnaire;
 mod report;
+mod trials;
+mod wording;
 
 use std::collections::BTreeMap;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_corpus::remedy::Remedy;
-use chereme_corpus::study::plan::Plan;
-use chereme_corpus::study::{StudyClip, StudyOverview};
-use chereme_sign::Handedness;
-use eframe::egui::{Button, Id, ProgressBar, ScrollArea, Ui};
+use chereme_corpus::study::{NamedText, StudyOverview};
+use chereme_corpus::{Corpus, Error};
+use eframe::egui::{Button, CollapsingHeader, ProgressBar, ScrollArea, Ui};
 
-use self::data::Draft;
+use self::drafted::{Draft, Planned};
+use self::trials::Clip;
+use super::saved::{SavedTo, path_field};
 use super::{Pane, list_row, reach_focus};
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
-use crate::model::generated::GeneratedClip;
 use crate::overlay::remedy;
-use crate::panes::complete::Line;
-use crate::panes::import::Paths;
-use crate::words::{Text, fill, shell, spoken, studies as words};
+use crate::words::{Language, Text, fill, shell, spoken, studies as words};
 use crate::work::{Ended, Outcome, WorkId, studying};
 
 /// The part of the chosen study that is in sight.
@@ -45,19 +49,52 @@ const VIEWS: [(View, Text); 4] = [
     (View::Report, words::REPORT),
 ];
 
+/// How many faults are shown at once.
+const MOST_WRONG: usize = 20;
+
 /// Why something could not be done.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 struct Wrong {
     text: String,
+    place: Option<String>,
     remedy: Option<Remedy>,
 }
 
-impl From<&chereme_corpus::Error> for Wrong {
-    fn from(error: &chereme_corpus::Error) -> Self {
+impl Wrong {
+    fn of(error: &Error) -> Self {
         Self {
             text: error.to_string(),
+            place: error.place(),
             remedy: error.remedy(),
         }
+    }
+
+    /// Returns each part of an error.
+    fn each(error: &Error) -> Vec<Self> {
+        match error {
+            Error::Several { errors } => errors.iter().map(Self::of).collect(),
+            one => vec![Self::of(one)],
+        }
+    }
+
+    /// Returns the place, if it says more than the message, and the message.
+    fn said(&self, language: Language) -> String {
+        let text = spoken(&self.text, language);
+        let place = self.place.as_deref();
+        match place.and_then(|it| data::place(it, language)) {
+            Some(place) => {
+                let values: [(&str, &dyn std::fmt::Display); 2] =
+                    [("name", &place), ("answers", &text)];
+                fill(words::ASKED.of(language), &values)
+            }
+            None => text,
+        }
+    }
+
+    /// Returns the remedy, if the window has one.
+    fn helps(&self, language: Language) -> Option<String> {
+        let remedy = self.remedy.as_ref()?;
+        remedy::here(remedy, language)
     }
 }
 
@@ -72,15 +109,20 @@ pub(crate) struct Studies {
     view: View,
     /// The plan that is being written, if its form is open.
     draft: Option<Draft>,
+    /// The plan of the form, and its faults.
+    planned: Planned,
     /// A plan whose form was left before it was stored.
     unfinished: Option<Draft>,
+    /// A file for the form that was chosen or dropped, and then the work that reads it.
+    file: Option<(Choose, PathBuf)>,
+    reading: Option<(Choose, WorkId)>,
     /// Whether the first widget takes the keyboard focus.
     come: bool,
     planning: Option<WorkId>,
     opening: Option<WorkId>,
     /// Whether the desktop had no program for a page.
     unopened: bool,
-    wrong: Option<Wrong>,
+    wrong: Vec<Wrong>,
     clip: Clip,
     /// The forms of the chosen study, and those of the others by their names: their work goes on.
     forms: Forms,
@@ -92,8 +134,11 @@ pub(crate) struct Studies {
 struct Forms {
     questionnaire: questionnaire::Form,
     answers: answers::Form,
+    list: answer_list::List,
     report: report::Shown,
-    wrong: Option<Wrong>,
+    /// The file of the plan.
+    plan: SavedTo,
+    wrong: Vec<Wrong>,
 }
 
 impl Forms {
@@ -102,6 +147,10 @@ impl Forms {
         let own = [
             &mut self.questionnaire.building,
             &mut self.answers.importing,
+            &mut self.list.asking,
+            &mut self.list.forgetting,
+            &mut self.list.saved.saving,
+            &mut self.plan.saving,
             &mut self.report.making,
             &mut self.report.saving,
         ];
@@ -119,22 +168,16 @@ impl Forms {
             Ok(Outcome::AnswersImported(report)) => {
                 self.answers.report = Some(report.as_ref().clone());
             }
+            Ok(Outcome::AnswersListed(list)) => self.list.found = Some(list.clone()),
+            Ok(Outcome::AnswersWritten) => self.list.saved.take(),
+            Ok(Outcome::PlanWritten) => self.plan.take(),
             Ok(Outcome::Reported(report)) => self.report.found = Some(report.clone()),
             Ok(Outcome::ReportWritten(files)) => self.report.saved = files.first().cloned(),
-            Ok(_) | Err(chereme_corpus::Error::Stopped) => {}
-            Err(error) => self.wrong = Some(Wrong::from(error)),
+            Ok(_) | Err(Error::Stopped) => {}
+            Err(error) => self.wrong = Wrong::each(error),
         }
         true
     }
-}
-
-/// The clip of a trial that the stage shows next.
-#[derive(Default)]
-struct Clip {
-    making: Option<WorkId>,
-    /// The name and the text of the clip that was asked for last.
-    of: Option<(String, String)>,
-    made: Option<Arc<StudyClip>>,
 }
 
 impl Studies {
@@ -152,7 +195,8 @@ impl Studies {
         all.iter().find(|it| it.plan.name == chosen).cloned()
     }
 
-    /// Takes files that were dropped on the window while the answers of a study are in sight; returns whether it did.
+    /// Takes files that were dropped on the window while the answers of a study or the form of a plan are in sight; returns
+    /// whether it did.
     pub(crate) fn drop_files(&mut self, paths: &[PathBuf]) -> bool {
         let fits = |path: &PathBuf| {
             let ending = path
@@ -160,6 +204,16 @@ impl Studies {
                 .map(|it| it.to_string_lossy().to_lowercase());
             path.is_dir() || ending.is_some_and(|it| ["json", "csv"].contains(&it.as_str()))
         };
+        if self.draft.is_some()
+            && let [path] = paths
+            && path
+                .extension()
+                .is_some_and(|it| !it.eq_ignore_ascii_case("chereme"))
+            && fits(path)
+        {
+            self.file = Some((Choose::Trials, path.clone()));
+            return true;
+        }
         let takes = self.chosen.is_some()
             && self.draft.is_none()
             && self.view == View::Answers
@@ -177,79 +231,47 @@ impl Studies {
             (Choose::Answers, Some(_)) => self.forms.answers.take(paths),
             (Choose::Questionnaire, Some(path)) => self.forms.questionnaire.to = path,
             (Choose::Report, Some(path)) => self.forms.report.to = path,
+            (Choose::AnswersTable, Some(path)) => self.forms.list.saved.to = path,
+            (Choose::SavePlan, Some(path)) => self.forms.plan.to = path,
+            (Choose::Trials | Choose::Columns | Choose::Plan, Some(path)) => {
+                self.file = Some((what, path.into()));
+            }
             _ => {}
         }
     }
 
-    /// Asks for the clip of a trial, which is then shown on the stage.
-    fn show_clip(&mut self, name: &str, text: &str, out: &mut Outbox) {
-        if let Some(old) = self.clip.making.take() {
-            out.send(Command::Stop(old));
+    /// Reads the file that was chosen or dropped for a form.
+    fn read_file(&mut self, out: &mut Outbox) {
+        if let Some((what, path)) = self.file.take() {
+            self.wrong.clear();
+            self.reading = Some((what, out.work(studying::read(path))));
         }
-        self.wrong = None;
-        self.clip = Clip {
-            making: Some(out.work(studying::clip(text.to_owned()))),
-            of: Some((name.to_owned(), text.to_owned())),
-            made: None,
-        };
     }
 
-    /// Shows the clip on the stage once it is made.
-    fn give_clip(&mut self, out: &mut Outbox) {
-        let Some((made, (name, _))) = self.clip.made.take().zip(self.clip.of.clone()) else {
-            return;
-        };
-        let clip = GeneratedClip {
-            name,
-            token: None,
-            clip: made.clip.clone(),
-            faces: made.faces.clone(),
-            anatomy: made.anatomy.clone(),
-            handedness: Handedness::default(),
-            parts: Vec::new(),
-        };
-        out.send(Command::Made(Some(Arc::new(clip))));
-        out.send(Command::Look);
-    }
-
-    /// Shows the trials of a plan; a click shows the clip of one on the stage.
-    fn trials(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, plan: &Plan, out: &mut Outbox) {
-        let rows = data::trials(plan, seen.language);
-        ui.weak(fill(seen.say(words::TRIALS), &[("n", &rows.len())]));
-        if seen.is_running(self.clip.making) {
-            ui.horizontal(|ui| {
-                ui.spinner();
-                ui.weak(seen.say(words::MAKING));
-            });
-        }
-        let height = ui.spacing().interact_size.y * 1.9;
-        let whole = height + ui.spacing().item_spacing.y;
-        let room = (whole * rows.len() as f32).min(320.0);
-        let mut picked = None;
-        ScrollArea::vertical()
-            .id_salt("trials")
-            .max_height(room)
-            .auto_shrink([false, true])
-            .show_rows(ui, height, rows.len(), |ui, range| {
-                for (name, clip) in &rows[range] {
-                    let own = (name, clip);
-                    let chosen = self
-                        .clip
-                        .of
-                        .as_ref()
-                        .is_some_and(|it| (&it.0, &it.1) == own);
-                    if list_row(ui, height, chosen, name, clip).clicked() {
-                        picked = Some((name.clone(), clip.clone()));
-                    }
+    /// Takes a file that was read.
+    fn take_text(&mut self, what: Choose, it: &NamedText) {
+        match what {
+            Choose::Trials => {
+                if let Some(draft) = &mut self.draft {
+                    let name = Path::new(&it.file).file_name();
+                    let name = name.map(|it| it.to_string_lossy().into_owned());
+                    draft.file = name.unwrap_or_else(|| it.file.clone());
+                    draft.table = it.text.trim_start_matches('\u{feff}').to_owned();
                 }
-            });
-        if let Some((name, clip)) = picked {
-            self.show_clip(&name, &clip, out);
+            }
+            Choose::Columns => self.forms.answers.take_map(it),
+            _ => match Corpus::read_plan(&it.text, &it.file) {
+                Ok(plan) => {
+                    self.draft = Some(Draft::of_plan(&plan));
+                    self.come = true;
+                }
+                Err(error) => self.wrong = Wrong::each(&error),
+            },
         }
     }
 
     /// Shows all studies, and the button that begins a new one.
-    fn list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>) {
+    fn list(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         let all = self.all.clone().unwrap_or_default();
         if all.is_empty() && self.all.is_some() {
             ui.label(seen.say(words::NONE));
@@ -281,9 +303,17 @@ impl Studies {
             if self.unfinished.is_some() && ui.button(seen.say(words::CONTINUE)).clicked() {
                 begun = self.unfinished.take();
             }
+            let file = ui.add_enabled(open, Button::new(seen.say(words::PLAN_OF_FILE)));
+            if file
+                .on_hover_text(seen.say(words::PLAN_OF_FILE_TIP))
+                .clicked()
+            {
+                out.send(Command::Choose(Choose::Plan));
+            }
         });
         if begun.is_some() {
-            (self.draft, self.wrong, self.come) = (begun, None, true);
+            (self.draft, self.come) = (begun, true);
+            self.wrong.clear();
         }
     }
 
@@ -296,7 +326,7 @@ impl Studies {
         if let Some(old) = self.chosen.replace(name) {
             self.others.insert(old, before);
         }
-        self.wrong = None;
+        self.wrong.clear();
     }
 
     /// Shows the chosen study.
@@ -322,34 +352,70 @@ impl Studies {
                 [("name", &question.name), ("answers", &answers)];
             ui.label(fill(seen.say(words::ASKED), &values));
         }
-        self.trials(ui, seen, &it.plan, out);
-        if it.participants == 0 {
-            ui.weak(seen.say(words::CAN_CHANGE));
+        for it in &it.plan.hypotheses {
+            ui.label(data::hypothesis(it, seen.language));
         }
         let open = !seen.snapshot.is_read_only();
-        let delete = ui.add_enabled(open, Button::new(seen.say(words::DELETE)));
-        let delete = delete
-            .on_hover_text(seen.say(words::DELETE_TIP))
-            .on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
-        if delete.clicked() {
-            out.work(studying::delete(it.plan.name.clone()));
-        }
+        ui.horizontal_wrapped(|ui| {
+            let change = ui.add_enabled(open, Button::new(seen.say(words::CHANGE)));
+            let change = change.on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
+            if change.clicked() {
+                let all = self.all.clone().unwrap_or_default();
+                let taken: Vec<&str> = all.iter().map(|it| it.plan.name.as_str()).collect();
+                self.draft = Some(Draft::of(it, &taken));
+                self.come = true;
+                self.wrong.clear();
+            }
+            let delete = ui.add_enabled(open, Button::new(seen.say(words::DELETE)));
+            let delete = delete
+                .on_hover_text(seen.say(words::DELETE_TIP))
+                .on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
+            if delete.clicked() {
+                out.work(studying::delete(it.plan.name.clone()));
+            }
+        });
+        let about = match it.participants {
+            0 => words::CAN_CHANGE,
+            _ => words::CHANGE_ANSWERED,
+        };
+        ui.weak(seen.say(about));
+        self.trials(ui, seen, &it.plan, out);
+        let header = CollapsingHeader::new(seen.say(words::SAVE_PLAN)).id_salt("plan file");
+        header.show(ui, |ui| {
+            let proposed = format!("{}-plan.json", data::file_stem(&it.plan.name));
+            let named = (words::PLAN_FILE, words::WRITE_PLAN, Choose::SavePlan);
+            let form = &mut self.forms.plan;
+            if let Some((to, force)) = form.show(ui, seen, named, &proposed, out) {
+                let job = studying::write_plan(it.plan.name.clone(), to, force);
+                form.saving = Some(out.work(job));
+                self.clear();
+            }
+        });
     }
 
     /// Removes the results and errors of earlier work.
     fn clear(&mut self) {
-        (self.wrong, self.forms.wrong) = (None, None);
+        self.wrong.clear();
+        self.forms.wrong.clear();
     }
 
-    fn trouble(&self, ui: &mut Ui, seen: &PaneInput<'_>, wrong: Option<&Wrong>) {
+    fn trouble(&self, ui: &mut Ui, seen: &PaneInput<'_>, wrong: &[Wrong]) {
         if self.unopened {
             ui.colored_label(seen.colours().warning, seen.say(words::NOT_OPENED));
         }
-        let Some(wrong) = wrong else { return };
-        ui.colored_label(seen.colours().trouble, spoken(&wrong.text, seen.language));
-        let helps = wrong.remedy.as_ref();
-        if let Some(helps) = helps.and_then(|it| remedy::here(it, seen.language)) {
-            ui.weak(helps);
+        let mut before = None;
+        for wrong in wrong.iter().take(MOST_WRONG) {
+            ui.colored_label(seen.colours().trouble, wrong.said(seen.language));
+            let helps = wrong.helps(seen.language);
+            // Several faults may have one remedy.
+            if let Some(helps) = helps.filter(|it| before.as_ref() != Some(it)) {
+                ui.weak(&helps);
+                before = Some(helps);
+            }
+        }
+        if wrong.len() > MOST_WRONG {
+            let more = wrong.len() - MOST_WRONG;
+            ui.weak(fill(seen.say(words::MORE), &[("n", &more)]));
         }
     }
 }
@@ -378,31 +444,11 @@ fn progress(
     true
 }
 
-/// Shows a field for a path with completions, and a button that opens the file chooser.
-fn path_field(
-    ui: &mut Ui,
-    seen: &PaneInput<'_>,
-    (name, hint): (Text, &str),
-    (paths, text): (&mut Paths, &mut String),
-    what: Choose,
-    out: &mut Outbox,
-) {
-    ui.weak(seen.say(name));
-    let line = Line {
-        name: seen.say(name),
-        hint,
-        ..Line::default()
-    };
-    paths.show(ui, Id::unique(("study path", name.en)), line, text);
-    if ui.button(seen.say(words::CHOOSE)).clicked() {
-        out.send(Command::Choose(what));
-    }
-}
-
 impl Pane for Studies {
     fn ui(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
         self.follow(seen, out);
         self.give_clip(out);
+        self.read_file(out);
         let area = ScrollArea::vertical().id_salt("studies").auto_shrink(false);
         area.show(ui, |ui| {
             if self.draft.is_some() {
@@ -410,13 +456,19 @@ impl Pane for Studies {
                 reach_focus(ui);
                 return;
             }
-            self.list(ui, seen);
+            self.list(ui, seen, out);
             if let Some(it) = self.chosen() {
                 self.study(ui, seen, &it, out);
             }
-            let of_study = self.forms.wrong.as_ref();
-            let of_study = of_study.filter(|_| self.chosen().is_some());
-            self.trouble(ui, seen, self.wrong.as_ref().or(of_study));
+            let of_study = self.chosen().is_some() && self.wrong.is_empty();
+            self.trouble(
+                ui,
+                seen,
+                match of_study {
+                    true => &self.forms.wrong,
+                    false => &self.wrong,
+                },
+            );
             reach_focus(ui);
         });
     }
@@ -424,6 +476,14 @@ impl Pane for Studies {
     fn hear(&mut self, id: WorkId, ended: &Ended) {
         let mut forms = std::iter::once(&mut self.forms).chain(self.others.values_mut());
         if forms.any(|it| it.hear(id, ended)) {
+            return;
+        }
+        if let Some((what, _)) = self.reading.take_if(|it| it.1 == id) {
+            match ended {
+                Ok(Outcome::StudyText(text)) => self.take_text(what, text),
+                Ok(_) | Err(Error::Stopped) => {}
+                Err(error) => self.wrong = Wrong::each(error),
+            }
             return;
         }
         let own = [
@@ -453,8 +513,8 @@ impl Pane for Studies {
                 (self.view, self.come) = (View::Plan, true);
             }
             Ok(Outcome::Opened(opened)) => self.unopened = !opened,
-            Ok(_) | Err(chereme_corpus::Error::Stopped) => {}
-            Err(error) => self.wrong = Some(Wrong::from(error)),
+            Ok(_) | Err(Error::Stopped) => {}
+            Err(error) => self.wrong = Wrong::each(error),
         }
     }
 

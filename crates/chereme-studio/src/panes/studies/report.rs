@@ -4,14 +4,14 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use chereme_corpus::study::StudyOverview;
-use chereme_corpus::study::report::{Report, numbers};
-use eframe::egui::{Button, Grid, ScrollArea, Ui};
+use chereme_corpus::study::report::Report;
+use eframe::egui::{Button, Ui};
 
-use super::{Studies, data, path_field, progress};
+use super::{Studies, data, figures, path_field, progress};
 use crate::context::{Outbox, PaneInput};
 use crate::file_dialogs::Choose;
 use crate::panes::import::Paths;
-use crate::words::{Text, fill, studies as words};
+use crate::words::{fill, studies as words};
 use crate::work::{WorkId, studying};
 
 /// The report of the chosen study, and the file that it is written to.
@@ -51,7 +51,7 @@ pub(super) fn show(
     let Some(report) = shown.found.clone() else {
         return;
     };
-    figures(ui, seen, &report);
+    figures::show(ui, seen, &report);
     ui.separator();
     if shown.to.is_empty() && !std::mem::replace(&mut shown.proposed, true) {
         let name = format!("{}-report.html", data::file_stem(&it.plan.name));
@@ -60,7 +60,7 @@ pub(super) fn show(
     path_field(
         ui,
         seen,
-        (words::REPORT_PATH, ""),
+        (words::REPORT_PATH, seen.say(words::REPORT_HINT)),
         (&mut shown.paths, &mut shown.to),
         Choose::Report,
         out,
@@ -99,82 +99,16 @@ pub(super) fn show(
     }
 }
 
-/// Returns the path with the ending of a page, unless it has it.
+/// Returns the path with the ending of a page, unless it has that of a page or of JSON, or names a folder.
 fn with_ending(text: &str) -> PathBuf {
     let path = Path::new(text);
+    let known = |ending: &std::ffi::OsStr| {
+        let known = ["html", "htm", "json"];
+        known.iter().any(|it| ending.eq_ignore_ascii_case(it))
+    };
     match path.extension() {
-        Some(ending) if ending.eq_ignore_ascii_case("html") => path.to_owned(),
+        Some(ending) if known(ending) => path.to_owned(),
+        _ if text.ends_with(['/', std::path::MAIN_SEPARATOR]) || path.is_dir() => path.to_owned(),
         _ => PathBuf::from(format!("{text}.html")),
     }
-}
-
-fn figures(ui: &mut Ui, seen: &PaneInput<'_>, report: &Report) {
-    let people = &report.people;
-    if people.recruited == 0 {
-        ui.label(seen.say(words::NOBODY));
-    }
-    let values: [(&str, &dyn std::fmt::Display); 2] = [
-        ("recruited", &people.recruited),
-        ("analysed", &people.analysed),
-    ];
-    ui.label(fill(seen.say(words::ANALYSED), &values));
-    for it in &people.excluded {
-        let reason = numbers::reason(&it.reason, seen.language);
-        let values: [(&str, &dyn std::fmt::Display); 2] = [("n", &it.count), ("reason", &reason)];
-        ui.weak(fill(seen.say(words::LEFT_OUT), &values));
-    }
-    let titles = [
-        words::COLUMN_QUESTION,
-        words::COLUMN_PART,
-        words::COLUMN_CONDITION,
-        words::COLUMN_ANSWERS,
-        words::COLUMN_MEAN,
-        words::COLUMN_SD,
-        words::COLUMN_MEDIAN,
-        words::COLUMN_RIGHT,
-    ];
-    table(
-        ui,
-        seen,
-        "groups",
-        &titles,
-        data::groups(report, seen.language),
-    );
-    let rows = data::comparisons(report, seen.language);
-    if !rows.is_empty() {
-        ui.strong(seen.say(words::COMPARED));
-        let titles = [
-            words::COLUMN_QUESTION,
-            words::COLUMN_FIRST,
-            words::COLUMN_SECOND,
-            words::COLUMN_DELTA,
-            words::COLUMN_INTERVAL,
-            words::COLUMN_POOLED,
-            words::COLUMN_PEOPLE,
-        ];
-        table(ui, seen, "comparisons", &titles, rows);
-    }
-    for text in data::conclusions(report, seen.language) {
-        ui.label(text);
-    }
-}
-
-fn table(ui: &mut Ui, seen: &PaneInput<'_>, id: &str, titles: &[Text], rows: Vec<Vec<String>>) {
-    if rows.is_empty() {
-        return;
-    }
-    ScrollArea::horizontal().id_salt(id).show(ui, |ui| {
-        Grid::new(id).striped(true).show(ui, |ui| {
-            for title in titles {
-                ui.weak(seen.say(*title));
-            }
-            ui.end_row();
-            for row in rows {
-                for cell in row {
-                    ui.label(cell);
-                }
-                ui.end_row();
-            }
-        });
-    });
 }

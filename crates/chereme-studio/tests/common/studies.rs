@@ -1,0 +1,156 @@
+//! Shared parts of the tests that drive the pane of studies.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chereme_corpus::study::StudyRequest;
+use chereme_corpus::study::answers::{
+    ANSWERS_FORMAT, ANSWERS_VERSION, Answer, Device, Participant,
+};
+use chereme_corpus::study::plan::Role as TrialRole;
+use chereme_corpus::{Corpus, Progress, unheard};
+use chereme_studio::Language;
+use eframe::egui::{DroppedFile, DroppedFileHandle, Key};
+use egui_kittest::kittest::Queryable;
+
+use super::tiers::{ALT, CTRL};
+use super::{Window, contains, idle, options, small_corpus, until, window};
+
+/// Opens a window whose corpus is made first by `prepare`, with the pane of studies large.
+pub fn opened_with<'a>(
+    folder: &Path,
+    language: Language,
+    prepare: impl FnOnce(&mut Corpus),
+) -> Window<'a> {
+    let path = small_corpus(folder);
+    prepare(&mut Corpus::open(&path, "A").expect("opened"));
+    let mut window = window(chereme_studio::Options {
+        corpus: Some(path),
+        language,
+        ..options(folder)
+    });
+    until(&mut window, "the corpus", |it| contains(it, "escargot"));
+    idle(&mut window);
+    window.key_press_modifiers(CTRL, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(CTRL | ALT, Key::O);
+    window.run_steps(3);
+    idle(&mut window);
+    window
+}
+
+pub fn opened<'a>(folder: &Path, language: Language) -> Window<'a> {
+    opened_with(folder, language, |_| {})
+}
+
+/// Returns the corpus of a window.
+pub fn corpus(window: &Window<'_>) -> Corpus {
+    let path = window.state().corpus().expect("open").clone();
+    Corpus::open(&path, "reader").expect("opened")
+}
+
+pub fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
+    window.get_by_label(label).focus();
+    window.run_steps(2);
+    window.get_by_label(label).type_text(text);
+    window.run_steps(3);
+}
+
+/// Returns the request of a study of one sign in two conditions.
+pub fn places(name: &str) -> StudyRequest {
+    StudyRequest {
+        name: name.to_owned(),
+        items: vec!["ESCARGOT".to_owned()],
+        conditions: vec![
+            ("captured".to_owned(), "{}".to_owned()),
+            ("higher".to_owned(), "{} | place both by up 10cm".to_owned()),
+        ],
+        questions: vec!["realism".to_owned()],
+        scale: 5,
+        ..StudyRequest::default()
+    }
+}
+
+/// Stores a study.
+pub fn plan(corpus: &mut Corpus, request: &StudyRequest) {
+    let plan = request.plan().expect("a plan");
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    corpus.plan_study(&plan, progress).expect("stored");
+}
+
+/// Writes the answers of a participant who saw some trials: the condition and the number of each.
+pub fn write_answers(folder: &Path, sha256: &str, code: &str, values: &[(&str, i64)]) -> PathBuf {
+    let answer = |(n, (condition, value)): (u32, &(&str, i64))| Answer {
+        n,
+        block: 1,
+        part: String::new(),
+        item: "ESCARGOT".into(),
+        condition: (*condition).into(),
+        role: TrialRole::Main,
+        question: "realism".into(),
+        scale: Some([1, 5]),
+        value: Some(*value),
+        choice: None,
+        right: None,
+        plays: 1,
+        ms: 900,
+        hidden: 0,
+        slow: 0,
+    };
+    let participant = Participant {
+        format: ANSWERS_FORMAT.into(),
+        version: ANSWERS_VERSION,
+        study: "places".into(),
+        plan_sha256: sha256.into(),
+        code: code.into(),
+        seed: 1,
+        started_day: "2026-11-27".into(),
+        language: "en".into(),
+        device: Device::default(),
+        consent: [("analysis".to_owned(), true)].into(),
+        profile: [].into(),
+        finished: true,
+        skipped: Vec::default(),
+        answers: (1..).zip(values).map(answer).collect(),
+    };
+    let path = folder.join(format!("{code}.json"));
+    let text = serde_json::to_string(&participant).expect("text");
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+/// Stores the study `places` with the answers of two participants; the second one passed over a trial.
+pub fn answered(corpus: &mut Corpus, folder: &Path) {
+    plan(corpus, &places("places"));
+    let sha256 = corpus.study("places").expect("stored").plan_sha256;
+    let both = [("captured", 5), ("higher", 2)];
+    let files = [
+        write_answers(folder, &sha256, "p1", &both),
+        write_answers(folder, &sha256, "p2", &both[..1]),
+    ];
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let report = corpus.import_answers("places", &files, progress);
+    assert_eq!(report.expect("imported").added, 2);
+}
+
+/// A file that is dropped on the window.
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+pub fn drop_file(window: &mut Window<'_>, path: &Path) {
+    let handle: DroppedFileHandle = Arc::new(Dropped(path.to_owned()));
+    window.input_mut().dropped_files.push(handle);
+    window.run_steps(3);
+}
