@@ -55,6 +55,11 @@ struct Contact {
 }
 
 impl Contacts {
+    /// Returns the number of contacts.
+    pub(crate) fn count(&self) -> usize {
+        self.found.len()
+    }
+
     /// Returns the same contacts for another body that moves alike.
     pub(crate) fn on(self, work: &Work) -> Self {
         Self {

@@ -65,6 +65,7 @@ mod testing;
 #[cfg(test)]
 mod tests;
 mod text;
+mod transfer;
 pub mod units;
 mod work;
 
@@ -95,3 +96,4 @@ pub use sources::{
     Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, Letter, LetterStroke,
     Material, Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
 };
+pub use transfer::{Transferred, on_body};

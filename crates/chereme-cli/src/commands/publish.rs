@@ -16,14 +16,23 @@ use crate::words::Words;
 /// and seen from three sides, its values in words, its minimal pairs and its terms of use. The folder opens by a double
 /// click and from any web server, in English and French, and asks no other computer for anything.
 ///
+/// From a web server (https) a browser keeps a copy of the search and of the signs that were opened, or of all signs if
+/// somebody wants that, so that the dictionary works without a connection. With a connection, each page asks first
+/// whether the copy still holds, and deletes from it what a newer publication does not have. Without one, the copy is shown
+/// for at most 30 days.
+///
 /// Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and
 /// signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without
 /// --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a
 /// sign that was withdrawn leaves no trace; files of others in the folder stay.
 ///
+/// With --own-body every sign plays on the program's own body. That removes the height and the proportions of signers, but
+/// not their rhythm and their movement, by which people are recognised, too. Hands that touch something touch it on that
+/// body, too; the report names the signs for which that failed.
+///
 /// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
-/// (handshapes without a picture), "armless" (signs whose movement has no arms to show), "cut" (signs whose movement is
-/// cut), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why", "movement" (whether only that was left out),
+/// (handshapes without a picture), "namesakes" (handshapes with the picture of the usual one of that name), "armless" (signs whose movement has no arms to show), "cut" (signs whose movement is
+/// cut), "own_body", "apart" (signs with a touch that is lost on that body), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why", "movement" (whether only that was left out),
 /// "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
@@ -52,6 +61,9 @@ pub(crate) struct Args {
     /// Publish the remarks on signs, too
     #[arg(long)]
     notes: bool,
+    /// Play every sign on the program's own body, not on that of its signer
+    #[arg(long)]
+    own_body: bool,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
@@ -62,6 +74,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         terms: args.terms.clone(),
         contact: args.contact.clone(),
         notes: args.notes,
+        own_body: args.own_body,
     };
     let mut bar = Bar::new();
     let mut hear = |step: Step<'_>| bar.show(step);
@@ -82,6 +95,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     for (terms, signs) in &done.terms {
         output.line(format!("terms {terms:?}: {signs}"))?;
     }
+    if done.namesakes > 0 {
+        output.line(format!(
+            "handshapes with the picture of the usual one of that name: {}; the source may mean another one",
+            done.namesakes
+        ))?;
+    }
     if done.undrawn > 0 {
         output.line(format!(
             "handshapes without a picture: {}; their values have no posture",
@@ -98,6 +117,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.line(format!(
             "movement cut after 3600 frames: {}",
             done.cut.join(", ")
+        ))?;
+    }
+    if !done.apart.is_empty() {
+        output.line(format!(
+            "a touch is lost on the program's own body: {}",
+            done.apart.join(", ")
         ))?;
     }
     if done.without_pairs {
@@ -142,12 +167,20 @@ pub(super) const WORDS: Words = Words {
             "On cherche par mot, par configuration dessinée, par emplacement sur le corps, par mouvement, par une ou deux mains ; les signes qui conviennent presque suivent ceux qui conviennent. Chaque signe a une page avec son mouvement, que l’on peut ralentir, avancer image par image, inverser et voir de trois côtés, ses valeurs en mots, ses paires minimales et ses conditions d’utilisation. Le dossier s’ouvre d’un double clic et depuis tout serveur web, en anglais et en français, et ne demande rien à un autre ordinateur.",
         ),
         (
+            "From a web server (https) a browser keeps a copy of the search and of the signs that were opened, or of all signs if somebody wants that, so that the dictionary works without a connection. With a connection, each page asks first whether the copy still holds, and deletes from it what a newer publication does not have. Without one, the copy is shown for at most 30 days.",
+            "Depuis un serveur web (https), un navigateur garde une copie de la recherche et des signes ouverts, ou de tous les signes si quelqu’un le veut, pour que le dictionnaire fonctionne sans connexion. Avec une connexion, chaque page demande d’abord si la copie vaut encore, et en supprime ce qu’une publication plus récente n’a pas. Sans connexion, la copie est montrée pendant 30 jours au plus.",
+        ),
+        (
+            "With --own-body every sign plays on the program's own body. That removes the height and the proportions of signers, but not their rhythm and their movement, by which people are recognised, too. Hands that touch something touch it on that body, too; the report names the signs for which that failed.",
+            "Avec --own-body, chaque signe est joué par le corps du programme. Cela retire la taille et les proportions des signeurs, mais pas leur rythme ni leur mouvement, auxquels on reconnaît aussi les personnes. Les mains qui touchent quelque chose le touchent aussi sur ce corps ; le compte rendu nomme les signes pour lesquels cela a échoué.",
+        ),
+        (
             "Only what everybody may see is published: recordings whose signers agreed (`chereme consent`), under stated terms, and signs made from such recordings alone. Names of signers, recordings and files stay out; remarks, too, without --notes. The report lists the signs that were left out, and why. A second publication replaces the first one, and a sign that was withdrawn leaves no trace; files of others in the folder stay.",
             "Seul est publié ce que tout le monde peut voir : les enregistrements dont les signeurs ont donné leur accord (`chereme consent`), sous des conditions indiquées, et ce qui n’est fait que de tels enregistrements. Les noms des signeurs, des enregistrements et des fichiers restent dehors ; les remarques aussi, sans --notes. Le compte rendu dit ce qui a été laissé de côté et pourquoi. Une deuxième publication remplace la première, et un signe retiré ne laisse pas de trace ; les fichiers d’autrui dans le dossier restent.",
         ),
         (
-            "`--json` gives \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signs by terms of use), \"undrawn\" (handshapes without a picture), \"armless\" (signs whose movement has no arms to show), \"cut\" (signs whose movement is cut), \"without_pairs\" (whether there are too many minimal pairs) and \"left_out\", each with \"why\", \"movement\" (whether only that was left out), \"signs\", \"first\" and \"remedy\".",
-            "`--json` donne \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signes par conditions d’utilisation), \"undrawn\" (configurations sans image), \"armless\" (signes dont le mouvement n’a pas de bras à montrer), \"cut\" (signes dont le mouvement est coupé), \"without_pairs\" (s’il y a trop de paires minimales) et \"left_out\", chacun avec \"why\", \"movement\" (si seul le mouvement a été laissé de côté), \"signs\", \"first\" et \"remedy\".",
+            "`--json` gives \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signs by terms of use), \"undrawn\" (handshapes without a picture), \"namesakes\" (handshapes with the picture of the usual one of that name), \"armless\" (signs whose movement has no arms to show), \"cut\" (signs whose movement is cut), \"own_body\", \"apart\" (signs with a touch that is lost on that body), \"without_pairs\" (whether there are too many minimal pairs) and \"left_out\", each with \"why\", \"movement\" (whether only that was left out), \"signs\", \"first\" and \"remedy\".",
+            "`--json` donne \"page\", \"signs\", \"moving\", \"signers\", \"files\", \"bytes\", \"terms\" (signes par conditions d’utilisation), \"undrawn\" (configurations sans image), \"namesakes\" (configurations avec l’image de la configuration usuelle de ce nom), \"armless\" (signes dont le mouvement n’a pas de bras à montrer), \"cut\" (signes dont le mouvement est coupé), \"own_body\", \"apart\" (signes dont un contact est perdu sur ce corps), \"without_pairs\" (s’il y a trop de paires minimales) et \"left_out\", chacun avec \"why\", \"movement\" (si seul le mouvement a été laissé de côté), \"signs\", \"first\" et \"remedy\".",
         ),
         (
             "The signs, as a query for their tokens as in `chereme search`; all signs without it",
@@ -167,6 +200,10 @@ pub(super) const WORDS: Words = Words {
             "Publish the remarks on signs, too",
             "Publier aussi les remarques sur les signes",
         ),
+        (
+            "Play every sign on the program's own body, not on that of its signer",
+            "Jouer chaque signe sur le corps du programme, pas sur celui de son signeur",
+        ),
     ],
     lines: &[
         (
@@ -179,6 +216,10 @@ pub(super) const WORDS: Words = Words {
         ),
         ("terms {terms}: {n}", "conditions {terms} : {n}"),
         (
+            "handshapes with the picture of the usual one of that name: {n}; the source may mean another one",
+            "configurations avec l’image de la configuration usuelle de ce nom : {n} ; la source peut en entendre une autre",
+        ),
+        (
             "handshapes without a picture: {n}; their values have no posture",
             "configurations sans image : {n} ; leurs valeurs n’ont pas de posture",
         ),
@@ -189,6 +230,10 @@ pub(super) const WORDS: Words = Words {
         (
             "movement cut after 3600 frames: {glosses}",
             "mouvement coupé après 3600 images : {glosses}",
+        ),
+        (
+            "a touch is lost on the program's own body: {glosses}",
+            "un contact est perdu sur le corps du programme : {glosses}",
         ),
         (
             "minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields",

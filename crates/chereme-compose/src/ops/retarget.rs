@@ -7,9 +7,41 @@ use chereme_motion::{Anatomy, Channel, ModelPose, Part, Pose, Rate, Side, Skelet
 
 use crate::arm;
 use crate::body;
+use crate::contact::{self, Carry, Keep};
 use crate::error::Cause;
 use crate::recipe::Solver;
 use crate::work::{Columns, Work};
+
+/// Movement on another skeleton, and its contacts.
+pub(crate) struct Touching {
+    pub(crate) work: Work,
+    /// The number of contacts before.
+    pub(crate) contacts: usize,
+    /// Those that were kept by moving a wrist.
+    pub(crate) kept: Vec<String>,
+    /// Those that were lost.
+    pub(crate) lost: Vec<String>,
+}
+
+/// Transfers movement to another skeleton, and moves wrists a little, so that hands touch what they touched.
+pub(crate) fn touching(
+    work: &Work,
+    skeleton: &Arc<Skeleton>,
+    anatomy: &Arc<Anatomy>,
+    operator: &str,
+) -> Result<Touching, Cause> {
+    let touched = contact::touches(work);
+    let mut out = retarget(work, skeleton, anatomy)?;
+    let mut touched = touched.on(&out);
+    let keep = Keep::All(&Side::BOTH);
+    let kept = contact::mend(&mut out, &mut touched, keep, operator);
+    Ok(Touching {
+        contacts: touched.count(),
+        lost: contact::lost(&touched, &out, Carry::Same),
+        work: out,
+        kept,
+    })
+}
 
 /// Transfers movement to another skeleton.
 ///

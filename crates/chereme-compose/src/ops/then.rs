@@ -6,7 +6,6 @@ use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{ModelPose, Part, Side};
 use chereme_sign::Component;
 
-use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::join::{self, Cut, Seam};
@@ -37,13 +36,10 @@ pub(crate) fn then(
         }
     } else {
         did.push("the second signer's movement is put on the first one's body".to_owned());
-        let touched = contact::touches(&next);
-        let mut next = retarget::retarget(&next, &work.skeleton, &work.anatomy)?;
-        let mut touched = touched.on(&next);
-        let keep = Keep::All(&Side::BOTH);
-        did.extend(contact::mend(&mut next, &mut touched, keep, operator));
-        contacts = contact::lost(&touched, &next, Carry::Same);
-        next
+        let done = retarget::touching(&next, &work.skeleton, &work.anatomy, operator)?;
+        did.extend(done.kept);
+        contacts = done.lost;
+        done.work
     };
     retarget::resample(&mut next, work.rate);
     face_alike(work, &mut next);

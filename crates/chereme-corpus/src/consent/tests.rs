@@ -343,7 +343,7 @@ fn days_are_days() {
     }
 }
 
-fn any_audience() -> impl Strategy<Value = Option<Audience>> {
+pub(crate) fn any_audience() -> impl Strategy<Value = Option<Audience>> {
     prop::option::of(prop::sample::select(Audience::ALL.to_vec()))
 }
 

@@ -74,8 +74,6 @@ pub(super) fn collect(
 ) -> Result<Entries> {
     let asked = asked(corpus, query, progress)?;
     let connection = corpus.store.read();
-    let glosses = signs::glosses(connection)?;
-    let named = names(glosses.iter().map(String::as_str));
     let mut found = Entries {
         all: Vec::new(),
         withheld: Vec::new(),
@@ -114,7 +112,7 @@ pub(super) fn collect(
         };
         let remarks = edits::sign(connection, token.sign_id)?.1;
         found.all.push(Entry {
-            name: named.get(gloss.as_str()).cloned().unwrap_or_default(),
+            name: String::new(),
             texts: signs::texts(connection, token.sign_id)?,
             notes: remarks.filter(|_| notes),
             values: signs::values(connection, token.id)?,
@@ -127,9 +125,23 @@ pub(super) fn collect(
             pairs: Vec::new(),
         });
     }
+    name_folders(&mut found.all);
     found.people = people.len();
     found.without_pairs = !add_pairs(&mut found.all);
     Ok(found)
+}
+
+/// Names the folder of each sign. Only the signs of the dictionary count: the mark of a name would show that another
+/// sign exists, which may not be public.
+fn name_folders(entries: &mut [Entry]) {
+    let named = names(entries.iter().map(|it| it.gloss.as_str()));
+    let named: Vec<String> = entries
+        .iter()
+        .map(|it| named.get(it.gloss.as_str()).cloned().unwrap_or_default())
+        .collect();
+    for (entry, name) in entries.iter_mut().zip(named) {
+        entry.name = name;
+    }
 }
 
 /// Returns the tokens to choose from, by gloss.

@@ -16,7 +16,7 @@ use crate::inventories::StoredInventory;
 use crate::picture::values::{Panel, Scene};
 
 /// The size of the picture of a hand in pixels; it is shown at 64.
-const HAND: usize = 96;
+pub(super) const HAND: usize = 96;
 /// The height of a picture of places, in pixels.
 const PANEL: usize = 340;
 
@@ -158,9 +158,9 @@ pub(super) fn posture(
     all.find_map(|it| value.hand_pose(it))
 }
 
-/// Draws a handshape.
-pub(super) fn hand(angles: &HandAngles) -> Result<Image> {
-    let options = HandshapeOptions::small(HAND);
+/// Draws a handshape in a square of so many pixels.
+pub(super) fn hand(angles: &HandAngles, size: usize) -> Result<Image> {
+    let options = HandshapeOptions::small(size);
     handshape_picture(angles, &options).map_err(|error| Error::wrong(error.to_string()))
 }
 
@@ -182,6 +182,45 @@ pub(super) fn group(value: &InventoryValue) -> &'static str {
         4 if has("thumb") => "five",
         4 => "four",
         _ => "other",
+    }
+}
+
+/// A handshape of the program for one without a posture.
+pub(super) struct Likeness<'i> {
+    pub(super) value: &'i InventoryValue,
+    pub(super) angles: HandAngles,
+    /// Whether it has that name, and not a shorter one.
+    pub(super) is_namesake: bool,
+}
+
+/// Returns the handshape that has the name of one without a posture, or after which that one is named: `C-small` for
+/// `baby-C`, which is another name of it; `1` for `1-curved`, `5` for `5mx`, `beak` for `beak2` and `beak, pinkie
+/// extended`, `T` for `T + L`. A name promises no more than a likeness.
+pub(super) fn likeness<'i>(id: &str, inventories: &'i [StoredInventory]) -> Option<Likeness<'i>> {
+    let mut name = id.split(['+', '>', ',', ' ']).next().unwrap_or_default();
+    loop {
+        let shapes = inventories.iter().map(|it| &it.inventory);
+        let shapes = shapes.filter(|it| it.component == Component::Configuration);
+        let mut found = shapes.filter_map(|it| {
+            let value = it.find(name)?;
+            Some((value, value.hand_pose(it)?))
+        });
+        if let Some((value, angles)) = found.next() {
+            return Some(Likeness {
+                value,
+                angles,
+                is_namesake: name == id,
+            });
+        }
+        let stem = name.trim_end_matches(|it: char| it.is_ascii_digit());
+        let sign = name.trim_end_matches(|it: char| it.is_ascii_lowercase());
+        name = match name.rsplit_once('-') {
+            Some((before, _)) => before,
+            // A letter or a digit, and what varies it.
+            None if sign.len() == 1 && sign != name => sign,
+            None if stem != name => stem,
+            None => return None,
+        };
     }
 }
 
@@ -267,6 +306,43 @@ mod tests {
         ] {
             let value = known.get(id).expect(id);
             assert_eq!(group(value), wanted, "{id}");
+        }
+    }
+
+    #[test]
+    fn a_handshape_without_a_posture_stands_with_the_one_it_is_named_after() {
+        let own = inventory::builtin().iter().enumerate();
+        let all: Vec<StoredInventory> = own
+            .map(|(at, it)| StoredInventory {
+                id: at as i64,
+                inventory: it.clone(),
+            })
+            .collect();
+        for (id, wanted) in [
+            ("B", Some("B")),
+            ("baby-C", Some("C-small")),
+            ("1-curved", Some("1")),
+            ("C-spread-2", Some("C-spread")),
+            ("beak2-spread", Some("beak")),
+            ("beak, pinkie extended", Some("beak")),
+            ("5mx", Some("5")),
+            ("5rx > open-5r", Some("5")),
+            ("O2", Some("O")),
+            ("T + L", Some("T")),
+            ("Y mrp-bent", Some("Y")),
+            ("baby-C-wide", Some("C-small")),
+            ("money", None),
+            ("counting hand", None),
+            ("ASL-T", None),
+            ("N", None),
+            ("", None),
+            ("-", None),
+            ("ß-1", None),
+        ] {
+            let found = likeness(id, &all);
+            let same = found.as_ref().is_some_and(|it| it.is_namesake);
+            assert_eq!(same, ["B", "baby-C"].contains(&id), "{id}");
+            assert_eq!(found.map(|it| it.value.id.as_str()), wanted, "{id}");
         }
     }
 }

@@ -1,6 +1,6 @@
 //! The published folder: written completely beside its place, and exchanged for the old one at the end.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ffi::OsString;
 use std::fs;
 use std::io::ErrorKind;
@@ -8,6 +8,7 @@ use std::path::{Component, Path, PathBuf};
 
 use chereme_sign::text::composed;
 
+use super::offline::short_hash;
 use crate::error::{Error, Result};
 
 /// The list of the files that were written; the next publication replaces these and no others.
@@ -15,12 +16,20 @@ pub(super) const LIST: &str = "files.txt";
 /// The deepest folder of a publication that is looked into for files of others.
 const DEEPEST: usize = 32;
 
+/// A file that was written.
+pub(super) struct Stored {
+    /// The beginning of its SHA-256 hash.
+    pub(super) hash: String,
+    /// Its size in bytes.
+    pub(super) size: usize,
+}
+
 /// A folder under construction.
 pub(super) struct Folder {
     to: PathBuf,
     part: PathBuf,
     old: PathBuf,
-    written: BTreeSet<String>,
+    written: BTreeMap<String, Stored>,
     bytes: u64,
     done: bool,
 }
@@ -53,7 +62,7 @@ impl Folder {
             to: to.to_owned(),
             part,
             old,
-            written: BTreeSet::new(),
+            written: BTreeMap::new(),
             bytes: 0,
             done: false,
         })
@@ -67,21 +76,31 @@ impl Folder {
             fs::create_dir_all(folder).map_err(fault)?;
         }
         fs::write(&path, bytes).map_err(fault)?;
-        self.written.insert(name.to_owned());
+        let stored = Stored {
+            hash: short_hash(bytes),
+            size: bytes.len(),
+        };
+        self.written.insert(name.to_owned(), stored);
         self.bytes += bytes.len() as u64;
         Ok(())
     }
 
     /// Reports whether a file was written.
     pub(super) fn has(&self, name: &str) -> bool {
-        self.written.contains(name)
+        self.written.contains_key(name)
+    }
+
+    /// Returns the files that were written, by name.
+    pub(super) fn stored(&self) -> &BTreeMap<String, Stored> {
+        &self.written
     }
 
     /// Puts the folder in its place, and returns the number of files and their bytes. Files that no publication wrote
     /// stay.
     pub(super) fn finish(mut self) -> Result<(usize, u64)> {
-        self.written.insert(LIST.to_owned());
-        let list: String = self.written.iter().map(|it| format!("{it}\n")).collect();
+        let names = self.written.keys().map(String::as_str).chain([LIST]);
+        let names: BTreeSet<&str> = names.collect();
+        let list: String = names.iter().map(|it| format!("{it}\n")).collect();
         self.write(LIST, list.as_bytes())?;
         let fault = |error| Error::file(&self.to, error);
         if !self.to.exists() {
@@ -129,7 +148,7 @@ impl Folder {
     fn others(&self) -> Result<Vec<String>> {
         let list = fs::read_to_string(self.to.join(LIST)).unwrap_or_default();
         let known = list.lines().filter(|it| is_inside(it));
-        let known: BTreeSet<String> = known.map(|it| composed(it).into_owned()).collect();
+        let known: BTreeMap<String, ()> = known.map(|it| (composed(it).into_owned(), ())).collect();
         let mut others = Vec::new();
         self.walk("", 0, &known, &mut others)?;
         Ok(others)
@@ -139,7 +158,7 @@ impl Folder {
         &self,
         prefix: &str,
         depth: usize,
-        known: &BTreeSet<String>,
+        known: &BTreeMap<String, ()>,
         others: &mut Vec<String>,
     ) -> Result<()> {
         let folder = self.to.join(prefix);
@@ -163,9 +182,9 @@ impl Folder {
             let inside = format!("{plain}/");
             if is_folder && (holds(known, &inside) || holds(&self.written, &inside)) {
                 self.walk(&format!("{own}/"), depth + 1, known, others)?;
-            } else if !is_folder && known.contains(&plain) {
+            } else if !is_folder && known.contains_key(&plain) {
                 continue;
-            } else if self.written.contains(&plain) || holds(&self.written, &inside) {
+            } else if self.written.contains_key(&plain) || holds(&self.written, &inside) {
                 return Err(
                     Error::wrong(format!("{own:?} was not written by a publication"))
                         .at(entry.path().display().to_string())
@@ -180,10 +199,16 @@ impl Folder {
     }
 }
 
+/// Reports whether a folder has an older publication, or one that was killed left it beside its place.
+pub(super) fn is_published(to: &Path) -> bool {
+    let old = beside(to, "old");
+    to.join(LIST).is_file() || old.is_ok_and(|it| it.join(LIST).is_file())
+}
+
 /// Reports whether a name begins with a text.
-fn holds(names: &BTreeSet<String>, start: &str) -> bool {
+fn holds<T>(names: &BTreeMap<String, T>, start: &str) -> bool {
     let mut after = names.range(start.to_owned()..);
-    after.next().is_some_and(|it| it.starts_with(start))
+    after.next().is_some_and(|it| it.0.starts_with(start))
 }
 
 impl Drop for Folder {

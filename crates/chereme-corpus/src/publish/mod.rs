@@ -3,12 +3,14 @@
 //! Only what everybody may see is published: recordings whose signers agreed, under stated terms (see the module
 //! `consent`). The names of signers, recordings and files never reach the folder.
 
+mod bodies;
 mod codes;
 mod entries;
 mod facets;
 mod folder;
 mod motion;
 mod names;
+mod offline;
 mod pages;
 mod words;
 
@@ -16,26 +18,27 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use chereme_figure::raster::Style;
-use chereme_figure::{Body, Image, Palette, PortableBody, Theme, thumbnail, write_png};
-use chereme_motion::Skeleton;
+use chereme_figure::{Image, write_png};
 use chereme_sign::Remedy;
 use chereme_sign::text::fold;
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::Corpus;
-use crate::address::Address;
 use crate::consent::{self, Permissions, Withheld};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 
+use bodies::Bodies;
 use entries::{Entries, Entry, Moves};
 use facets::{CHOSEN, Facet};
 use folder::Folder;
-use pages::{SCRIPT, STILL, STYLE, Site};
+use pages::{SCRIPT, STYLE, Site};
 
+/// The words for the body that plays the signs, in `consent.json`.
+const SIGNERS: &str = "that of each signer";
+const OWN: &str = "the program's own; rhythm and movement are still the signer's";
 /// The most signs of a dictionary.
 const MOST: usize = 50_000;
 /// How many signs that were left out are named for each reason.
@@ -55,6 +58,14 @@ pub struct PublishOptions {
     pub contact: Option<String>,
     /// Whether the remarks on signs are published.
     pub notes: bool,
+    /// Whether signs play on the program's own body instead of the signer's.
+    pub own_body: bool,
+}
+
+impl PublishOptions {
+    fn title(&self) -> &str {
+        self.title.as_deref().unwrap_or("Signs · Signes")
+    }
 }
 
 /// A dictionary that was published.
@@ -76,10 +87,16 @@ pub struct Published {
     pub terms: BTreeMap<String, usize>,
     /// The number of handshapes without a picture, because their values have no posture.
     pub undrawn: usize,
+    /// The number of handshapes without a posture that have the picture of the usual handshape of that name.
+    pub namesakes: usize,
     /// The number of signs whose movement may be shown, but moves no arms.
     pub armless: usize,
     /// The signs whose movement is cut after 3,600 frames.
     pub cut: Vec<String>,
+    /// Whether the signs play on the program's own body.
+    pub own_body: bool,
+    /// The signs with a touch that is lost on the program's own body: a hand stays apart from what the signer touched.
+    pub apart: Vec<String>,
     /// Whether minimal pairs are left out, because there are too many of them.
     pub without_pairs: bool,
     /// The signs that were left out, by reason.
@@ -109,10 +126,14 @@ struct Written {
     moving: usize,
     /// The number of handshapes without a picture.
     undrawn: usize,
+    /// The number of handshapes with the picture of the usual one of that name.
+    namesakes: usize,
     /// The number of signs whose movement moves no arms.
     armless: usize,
     /// The signs whose movement is cut.
     cut: Vec<String>,
+    /// The signs with a touch that is lost on another body.
+    apart: Vec<String>,
 }
 
 fn as_text<S: serde::Serializer>(remedy: &Remedy, out: S) -> std::result::Result<S::Ok, S::Error> {
@@ -122,8 +143,8 @@ fn as_text<S: serde::Serializer>(remedy: &Remedy, out: S) -> std::result::Result
 impl Corpus {
     /// Publishes a dictionary of signs as a folder of web pages: search by word, handshape, place and movement, and a
     /// page for each sign with its movement. It opens from a disk and from any web server, and asks no other computer
-    /// for anything. The same corpus gives the same bytes. An older publication in the folder is replaced; files of
-    /// others stay.
+    /// for anything. The same corpus gives the same bytes. An older publication in the folder is replaced, by one without
+    /// signs if none of them may be published any more; files of others stay.
     ///
     /// # Errors
     /// [`Error::Wrong`] if nothing may be published, the query cannot be read, there are more than 50,000 signs, or the
@@ -151,7 +172,9 @@ impl Corpus {
         let query = options.query.as_deref().filter(|it| !it.trim().is_empty());
         let found = entries::collect(self, query, &permissions, options.notes, progress)?;
         let left_out = left_out(&found);
-        if found.all.is_empty() {
+        // If every sign of an older publication was withdrawn, its pages may not stay.
+        let withdrawn = !left_out.is_empty() && folder::is_published(to);
+        if found.all.is_empty() && !withdrawn {
             return Err(nothing(&left_out));
         }
         if found.all.len() > MOST {
@@ -170,8 +193,10 @@ impl Corpus {
         folder.write("LICENCES.txt", licences(&terms).as_bytes())?;
         let counts = json!({
             "signs": found.all.len(), "with_movement": moving, "signers": found.people, "terms": terms,
+            "body": if options.own_body { OWN } else { SIGNERS },
         });
         folder.write("consent.json", format!("{counts:#}\n").as_bytes())?;
+        offline::write(&mut folder, options.title())?;
         let (files, bytes) = folder.finish()?;
         Ok(Published {
             page: to.join("index.html"),
@@ -182,8 +207,11 @@ impl Corpus {
             bytes,
             terms,
             undrawn: written.undrawn,
+            namesakes: written.namesakes,
             armless: written.armless,
             cut: written.cut,
+            own_body: options.own_body,
+            apart: written.apart,
             without_pairs: found.without_pairs,
             left_out,
         })
@@ -199,11 +227,12 @@ impl Corpus {
     ) -> Result<Written> {
         let inventories = inventories::load(self.store.read())?;
         let site = Site {
-            title: options.title.as_deref().unwrap_or("Signs · Signes"),
+            title: options.title(),
             contact: options.contact.as_deref(),
+            own_body: options.own_body,
             inventories: &inventories,
         };
-        let mut bodies: Vec<(Skeleton, String, Body, PortableBody)> = Vec::new();
+        let mut bodies = Bodies::new(options.own_body)?;
         let mut moving = vec![false; found.all.len()];
         let mut written = Written::default();
         for (at, entry) in found.all.iter().enumerate() {
@@ -215,10 +244,12 @@ impl Corpus {
             })?;
             let mut body = None;
             if entry.moves == Moves::Public {
-                match self.write_movement(folder, entry, &mut bodies)? {
-                    Some((name, is_cut)) => {
-                        body = Some(name);
-                        written.cut.extend(is_cut.then(|| entry.gloss.clone()));
+                match bodies.write(self, folder, entry)? {
+                    Some(done) => {
+                        body = Some(done.body);
+                        let named = |it: bool| it.then(|| entry.gloss.clone());
+                        written.cut.extend(named(done.is_cut));
+                        written.apart.extend(named(done.is_apart));
                     }
                     None => written.armless += 1,
                 }
@@ -235,55 +266,13 @@ impl Corpus {
         folder.write("list.html", site.list(&found.all).as_bytes())?;
         folder.write("index.html", site.index().as_bytes())?;
         let shapes = data["facets"]["h"].as_array();
-        written.undrawn = shapes.map_or(0, |it| {
-            it.iter().filter(|it| it.get("pic").is_none()).count()
-        });
+        let count = |fits: &dyn Fn(&Value) -> bool| {
+            shapes.map_or(0, |it| it.iter().filter(|it| fits(it)).count())
+        };
+        written.undrawn = count(&|it| it.get("pic").is_none());
+        written.namesakes = count(&|it| it.get("as").is_some());
         written.moving = moving.iter().filter(|it| **it).count();
         Ok(written)
-    }
-
-    /// Writes the movement and the still picture of a sign, and returns the name of its body, and whether its movement is
-    /// cut; nothing if its skeleton has no arms or its movement no frames.
-    fn write_movement(
-        &self,
-        folder: &mut Folder,
-        entry: &Entry,
-        bodies: &mut Vec<(Skeleton, String, Body, PortableBody)>,
-    ) -> Result<Option<(String, bool)>> {
-        let moving = self.movement(&Address::Token(entry.token.id))?;
-        let (clip, is_cut) = motion::shown(&moving.clip)?;
-        if clip.frames() == 0 {
-            return Ok(None);
-        }
-        let skeleton: &Skeleton = clip.skeleton();
-        let at = match bodies.iter().position(|it| it.0 == *skeleton) {
-            Some(at) => at,
-            None => {
-                let body = Body::with_palette(skeleton, &moving.anatomy, &Palette::default());
-                let Some(portable) = body.portable(skeleton) else {
-                    return Ok(None);
-                };
-                let name = format!("b{}", bodies.len() + 1);
-                let surface = motion::surface(&portable);
-                let text = format!("CH.body(\"{name}\", {surface});\n");
-                folder.write(&format!("data/body/{name}.js"), text.as_bytes())?;
-                bodies.push((skeleton.clone(), name, body, portable));
-                bodies.len() - 1
-            }
-        };
-        let (_, name, body, portable) = &bodies[at];
-        let coded = motion::coded(&clip, &moving.anatomy, (body, portable));
-        let key = json!(entry.name);
-        let text = format!("CH.motion({key}, {});\n", coded);
-        folder.write(&format!("data/motion/{}.js", entry.name), text.as_bytes())?;
-        let style = Style {
-            theme: Theme::Light,
-            ..Style::default()
-        };
-        let still = thumbnail(&clip, &moving.anatomy, STILL, &style)
-            .map_err(|error| Error::wrong(error.to_string()))?;
-        folder.write(&format!("sign/{}/still.png", entry.name), &png(&still)?)?;
-        Ok(Some((name.clone(), is_cut)))
     }
 }
 
@@ -310,13 +299,31 @@ fn write_choices(
             let mut it = facets::document(value);
             if *letter == "h" {
                 let known = value.known.map(|(_, known)| known);
-                it["group"] = json!(known.map_or("other", facets::group));
                 let angles = known.and_then(|it| facets::posture(it, inventories));
-                if let (Some(angles), Some(name)) = (angles, &value.picture) {
+                let like = match angles {
+                    Some(_) => None,
+                    None => facets::likeness(&value.id, inventories),
+                };
+                let shape = like.as_ref().map(|it| it.value).or(known);
+                let group = shape.map_or("other", facets::group);
+                let has_none = angles.is_none() && like.is_none() && group == "other";
+                it["group"] = json!(if has_none { "word" } else { group });
+                let drawn = match &like {
+                    Some(like) if like.is_namesake => {
+                        it["as"] = json!(like.value.id);
+                        Some(like.angles)
+                    }
+                    Some(like) => {
+                        it["like"] = json!(like.value.id);
+                        None
+                    }
+                    None => angles,
+                };
+                if let (Some(angles), Some(name)) = (drawn, &value.picture) {
                     it["pic"] = json!(name);
                     let file = format!("hands/{name}.png");
                     if !folder.has(&file) {
-                        folder.write(&file, &png(&facets::hand(&angles)?)?)?;
+                        folder.write(&file, &png(&facets::hand(&angles, facets::HAND)?)?)?;
                     }
                 }
             }

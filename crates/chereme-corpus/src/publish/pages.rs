@@ -18,9 +18,10 @@ const SIGN: &str = include_str!("page/sign.html");
 const LIST: &str = include_str!("page/list.html");
 
 /// The script of all pages, in one file.
-pub(super) const SCRIPT: [&str; 5] = [
+pub(super) const SCRIPT: [&str; 6] = [
     include_str!("page/texts.js"),
     include_str!("page/common.js"),
+    include_str!("page/offline.js"),
     include_str!("page/search.js"),
     include_str!("page/player.js"),
     include_str!("page/sign.js"),
@@ -28,7 +29,7 @@ pub(super) const SCRIPT: [&str; 5] = [
 pub(super) const STYLE: &str = include_str!("page/app.css");
 
 /// The policy of each page: a browser may only show files of the same folder.
-const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; form-action 'none'; base-uri 'none'";
+const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; worker-src 'self'; manifest-src 'self'; form-action 'none'; base-uri 'none'";
 
 /// The size of the still picture of a sign, in pixels.
 pub(super) const STILL: [usize; 2] = [320, 400];
@@ -37,6 +38,8 @@ pub(super) const STILL: [usize; 2] = [320, 400];
 pub(super) struct Site<'a> {
     pub(super) title: &'a str,
     pub(super) contact: Option<&'a str>,
+    /// Whether signs play on the program's own body.
+    pub(super) own_body: bool,
     pub(super) inventories: &'a [StoredInventory],
 }
 
@@ -115,7 +118,7 @@ impl Site<'_> {
                 ("PAIRS", &self.pairs(entry, entries)),
                 ("NOTES", &notes),
                 ("SOURCE", &both(&words::SOURCE)),
-                ("ORIGIN", &origin(entry, body.is_some())),
+                ("ORIGIN", &self.origin(entry, body.is_some())),
                 ("TERMS", &terms),
             ],
         )
@@ -180,19 +183,24 @@ impl Site<'_> {
             ),
         }
     }
-}
 
-/// Returns the origin of a sign's movement, and the number of its signer.
-fn origin(entry: &Entry, shown: bool) -> String {
-    let words = match (entry.moves, entry.token.origin) {
-        (Moves::Withheld, _) => words::HELD,
-        (Moves::Never, _) => words::LISTED,
-        (Moves::Public, _) if !shown => words::UNSHOWN,
-        (_, Origin::Captured) => words::CAPTURED,
-        (_, Origin::Made) => words::MADE,
-        _ => words::GENERATED,
-    };
-    let signer = entry.person.filter(|_| shown);
-    let signer = signer.map(|it| format!(" ({} {it})", both(&words::SIGNER)));
-    format!("{}{}", both(&words), signer.unwrap_or_default())
+    /// Returns the origin of a sign's movement, the number of its signer, and the body on which it is shown.
+    fn origin(&self, entry: &Entry, shown: bool) -> String {
+        let words = match (entry.moves, entry.token.origin) {
+            (Moves::Withheld, _) => words::HELD,
+            (Moves::Never, _) => words::LISTED,
+            (Moves::Public, _) if !shown => words::UNSHOWN,
+            (_, Origin::Captured) => words::CAPTURED,
+            (_, Origin::Made) => words::MADE,
+            _ => words::GENERATED,
+        };
+        let mut text = both(&words);
+        if let Some(person) = entry.person.filter(|_| shown) {
+            text.push_str(&format!(" ({} {person})", both(&words::SIGNER)));
+            if self.own_body {
+                text.push_str(&format!("</p><p>{}", both(&words::OWN_BODY)));
+            }
+        }
+        text
+    }
 }

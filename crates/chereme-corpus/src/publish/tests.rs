@@ -1,3 +1,5 @@
+mod consent;
+
 use super::*;
 use crate::consent::tests::corpus;
 use crate::{Audience, ConsentChange, SignChange, unheard};
@@ -13,13 +15,13 @@ fn granted(audience: Audience) -> ConsentChange {
     }
 }
 
-fn consent(corpus: &mut Corpus, who: &str, audience: Audience) {
+pub(super) fn consented(corpus: &mut Corpus, who: &str, audience: Audience) {
     let who = [who.parse().expect("an address")];
     let change = granted(audience);
     corpus.change_consent(&who, &change).expect("changed");
 }
 
-fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> Result<Published> {
+pub(super) fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> Result<Published> {
     let options = PublishOptions {
         terms: terms.map(str::to_owned),
         title: Some("Signs & </script> \"@@GLOSS@@\"".into()),
@@ -29,7 +31,7 @@ fn publish(corpus: &mut Corpus, to: &Path, terms: Option<&str>) -> Result<Publis
 }
 
 /// Returns the files of a folder with their bytes.
-fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+pub(super) fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     fn walk(folder: &Path, prefix: &str, files: &mut BTreeMap<String, Vec<u8>>) {
         for entry in fs::read_dir(folder).expect("a folder").flatten() {
             let name = format!("{prefix}{}", entry.file_name().to_string_lossy());
@@ -93,7 +95,7 @@ fn nothing_is_published_that_nobody_agreed_to() {
 fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consent(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", Audience::Public);
     let change = SignChange {
         notes: Some(Some("Ada was tired that day".into())),
         ..SignChange::default()
@@ -115,12 +117,12 @@ fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
             .iter()
             .filter(|it| !it.starts_with("data/") && !it.ends_with(".png"));
         let own: Vec<&String> = data
-            .filter(|it| !["app.js", "app.css"].contains(&it.as_str()))
+            .filter(|it| !["app.js", "app.css", "offline.txt"].contains(&it.as_str()))
             .collect();
         assert!(own.is_empty(), "{name}: {own:?}");
     }
     fs::write(to.join("own.txt"), "mine").expect("written");
-    consent(&mut corpus, "recording:bol", Audience::Nobody);
+    consented(&mut corpus, "recording:bol", Audience::Nobody);
     let done = publish(&mut corpus, &to, Some("CC0")).expect("published");
     assert_eq!(done.left_out[0].first, ["BOL"]);
     let mut second = files(&to);
@@ -135,7 +137,7 @@ fn a_withdrawn_sign_leaves_no_trace_and_names_never_get_in() {
 fn pages_work_without_a_script_and_ask_no_other_computer() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consent(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", Audience::Public);
     let to = folder.path().join("site");
     publish(&mut corpus, &to, Some("CC0")).expect("published");
     let all = files(&to);
@@ -252,7 +254,7 @@ fn in_browser(address: &str) -> Option<String> {
 fn a_browser_searches_and_plays_from_the_disk() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus(folder.path());
-    consent(&mut corpus, "signer:Ada", Audience::Public);
+    consented(&mut corpus, "signer:Ada", Audience::Public);
     let to = folder.path().join("site");
     publish(&mut corpus, &to, Some("CC0")).expect("published");
     let address = |page: &str| format!("file://{}/{page}", to.display());

@@ -44,6 +44,10 @@ pub(super) const UNSHOWN: Pair = [
     "This movement cannot be shown: its skeleton has no two arms",
     "Ce mouvement ne peut pas être montré : son squelette n’a pas deux bras",
 ];
+pub(super) const OWN_BODY: Pair = [
+    "Shown on the program’s own body: height and proportions are not the signer’s, rhythm and movement are.",
+    "Montré sur le corps du programme : la taille et les proportions ne sont pas celles du signeur, le rythme et le mouvement le sont.",
+];
 pub(super) const HELD: Pair = [
     "The movement is not public",
     "Le mouvement n’est pas public",

@@ -53,7 +53,7 @@ CH.data = (given) => {
       sign.keys[facet] = [...new Set(own.flatMap((at) => keysOf[facet][at]))];
     }
     sign.f = sign.f || fold(sign.g);
-    sign.words = "\n" + sign.f;
+    sign.words = "\n" + sign.f + "\n";
   }
   readState();
   build();
@@ -80,23 +80,20 @@ function writeState() {
 }
 
 // How well a text fits a sign: 0 the whole gloss or word, 1 the beginning of a word, 2 within a word; nothing if it does not.
-function textRank(sign, words) {
+function textRank(sign, words, starts) {
   if (!words.length) return 0;
-  const whole = words.join(" ");
-  if (sign.f.split("\n").includes(whole)) return 0;
-  let rank = 1;
-  for (const word of words) {
-    const at = sign.words.indexOf(word);
-    if (at < 0) return null;
-    if (!/[\s\-_(']/.test(sign.words[at - 1]) && !new RegExp("[\\s\\-_(']" + word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&")).test(sign.words)) rank = 2;
-  }
-  return rank;
+  for (const word of words) if (!sign.words.includes(word)) return null;
+  if (sign.words.includes("\n" + words.join(" ") + "\n")) return 0;
+  return starts.every((it) => it.test(sign.words)) ? 1 : 2;
 }
+
+// The expression for a word's beginning.
+const start = (word) => new RegExp("[\\s\\-_(']" + word.replace(/[.*+?^${}()|[\]\\]/g, "\\$&"));
 
 // What a value has in common with its neighbours: the fingers of a handshape; the wider value, or else the first word.
 const kin = (facet, at) => {
   const value = data.facets[facet][at];
-  return facet === "h" && value.group !== "other" ? [value.group] : [value.up, value.id.split(/[\s_-]/)[0]].filter((it) => it !== undefined);
+  return facet === "h" && value.group !== "other" && value.group !== "word" ? [value.group] : [value.up, value.id.split(/[\s_-]/)[0]].filter((it) => it !== undefined);
 };
 
 // The distance of a sign from a choice: 0 it fits, 0.5 its neighbour does, 1 it does not, and a little more if it is not coded.
@@ -112,6 +109,7 @@ function distance(facet, sign) {
 
 function found() {
   const words = fold(state.q).split(" ").filter((it) => it);
+  const starts = words.map(start);
   const chosen = FACETS.filter((facet) => state[facet] !== null);
   const exact = [];
   const near = [];
@@ -121,7 +119,7 @@ function found() {
     for (const key of sign.keys[facet]) counts[facet].set(key, (counts[facet].get(key) || 0) + 1);
   };
   for (const sign of data.signs) {
-    const rank = textRank(sign, words);
+    const rank = textRank(sign, words, starts);
     if (rank === null) continue;
     const off = chosen.map((facet) => [facet, distance(facet, sign)]).filter((it) => it[1] > 0);
     if (!off.length) {
@@ -143,6 +141,7 @@ function found() {
 
 const wide = () => matchMedia("(min-width: 60rem)").matches;
 const buttons = [];
+const copyShown = copyLines();
 
 function choice(facet, key, label, attributes, ...inside) {
   const count = el("span", { class: "count" });
@@ -181,14 +180,15 @@ function handshapes() {
   const values = data.facets.h;
   const order = Object.keys(TEXTS.en.groups);
   const groups = order.filter((group) => values.some((it) => it.group === group));
-  return groups.map((group) => {
+  const hint = values.some((it) => it.as) && el("p", { class: "hint", "data-t": "namesakes" });
+  return [hint, ...groups.map((group) => {
     const own = values.map((value, at) => [value, at]).filter((it) => it[0].group === group);
     const all = own.length > 1 && choice("h", "@" + group, () => t("all"), { class: "word" }, el("span", { class: "name" }));
     const cells = own.map(([value, at]) => choice("h", value.id, () => named("h", at), { class: "cell" },
       value.pic && el("img", { src: "hands/" + value.pic + ".png", width: 64, height: 64, alt: "", loading: "lazy" }),
-      el("span", { class: "name" })));
+      el("span", { class: "name" }), value.like && el("small", { "data-like": value.like })));
     return roving(el("div", { class: "group", role: "group", "data-group": group }, el("h2", {}), all, cells));
-  });
+  })];
 }
 
 function places() {
@@ -203,7 +203,7 @@ function places() {
     const picture = el("div", { class: "panel" }, el("img", { src: "places/" + panel.name + ".png", width: panel.w, height: panel.h, alt: "", loading: "lazy" }), spots);
     return el("figure", { "data-panel": panel.name }, el("figcaption", {}), roving(picture));
   });
-  const list = roving(el("div", { class: "group", role: "group" }, values.map((value) => choice("p", value.id, () => valueName(value), { class: "word" }, el("span", { class: "name" })))));
+  const list = roving(el("div", { class: "group", role: "group", "data-label": "place" }, values.map((value) => choice("p", value.id, () => valueName(value), { class: "word" }, el("span", { class: "name" })))));
   return [el("div", { class: "panels" }, panels), list];
 }
 
@@ -226,11 +226,11 @@ function icon(id) {
 }
 
 function movements() {
-  return [roving(el("div", { class: "group", role: "group" }, data.facets.m.map((value) => choice("m", value.id, () => valueName(value), { class: "cell small" }, icon(value.id), el("span", { class: "name" })))))];
+  return [roving(el("div", { class: "group", role: "group", "data-label": "movement" }, data.facets.m.map((value) => choice("m", value.id, () => valueName(value), { class: "cell small" }, icon(value.id), el("span", { class: "name" })))))];
 }
 
 function hands() {
-  return [roving(el("div", { class: "group", role: "group" }, [["1", "one"], ["2", "two"]].map(([key, name]) => choice("n", key, () => t(name), { class: "word" }, el("span", { class: "name" })))))];
+  return [roving(el("div", { class: "group", role: "group", "data-label": "hands" }, [["1", "one"], ["2", "two"]].map(([key, name]) => choice("n", key, () => t(name), { class: "word" }, el("span", { class: "name" })))))];
 }
 
 function build() {
@@ -247,6 +247,7 @@ function build() {
     el("p", { class: "hint keys", "data-t": "keysSearch" }));
   document.getElementById("answer").append(el("p", { id: "total", role: "status" }), el("ol", { id: "exact", class: "cards" }), el("p", { id: "moreRow" }, el("button", { type: "button", id: "more", "data-t": "more", onclick: () => { shown += 4 * SHOWN; update(); } })),
     el("h2", { id: "nearTitle", "data-t": "near" }), el("ol", { id: "near", class: "cards" }));
+  document.querySelector("footer").append(copyShown.line);
   search.value = state.q;
   changeLanguage(update);
   window.addEventListener("hashchange", () => { readState(); search.value = state.q; update(); });
@@ -256,6 +257,7 @@ function build() {
     if (event.key === "Escape") clear();
   });
   update();
+  keepCopy(copyShown.draw);
 }
 
 function clear() {
@@ -282,7 +284,12 @@ function card(sign, off) {
 function update() {
   speak();
   for (const it of document.querySelectorAll("[data-t]")) it.textContent = t(it.dataset.t);
-  for (const it of document.querySelectorAll("[data-group] h2")) it.textContent = t("groups")[it.parentElement.dataset.group];
+  for (const it of document.querySelectorAll("[data-group]")) {
+    it.querySelector("h2").textContent = t("groups")[it.dataset.group];
+    it.setAttribute("aria-label", t("groups")[it.dataset.group]);
+  }
+  for (const it of document.querySelectorAll("[data-label]")) it.setAttribute("aria-label", t(it.dataset.label));
+  for (const it of document.querySelectorAll("[data-like]")) it.textContent = t("like", { shape: it.dataset.like });
   for (const it of document.querySelectorAll("[data-panel] figcaption")) it.textContent = t("panels")[it.parentElement.dataset.panel];
   const answer = found();
   for (const { facet, key, label, button, count } of buttons) {
@@ -308,5 +315,6 @@ function update() {
   const near = answer.near.slice(0, NEAR);
   document.getElementById("nearTitle").hidden = !near.length;
   document.getElementById("near").replaceChildren(...near.map((it) => card(it[2], it[3])));
+  copyShown.draw();
   writeState();
 }

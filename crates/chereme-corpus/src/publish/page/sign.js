@@ -34,7 +34,8 @@ function signPage(stage) {
   };
   changeLanguage(texts);
   texts();
-  if (!stage.dataset.motion) return;
+  const keep = () => keepCopy(() => {});
+  if (!stage.dataset.motion) { keep(); return; }
   const name = stage.dataset.motion;
   const body = stage.dataset.body;
   const files = [load("../../data/motion/" + encodeURIComponent(name) + ".js"), load("../../data/body/" + body + ".js")];
@@ -64,7 +65,7 @@ function signPage(stage) {
     // People who asked for less movement start it themselves.
     player.play(!matchMedia("(prefers-reduced-motion: reduce)").matches);
     texts();
-  }, () => { says.textContent = t("missing"); });
+  }, () => { says.textContent = t("missing"); }).finally(keep);
 }
 
 const stage = document.getElementById("stage");
