@@ -24,7 +24,7 @@ fn answers_are_listed_filtered_deleted_and_exported() {
         contains(it, "4 of 4; a click")
     });
     assert!(has(&window, "p1 · ESCARGOT, captured · realism: 5"));
-    // What somebody passed over is in sight, too.
+    // A question that somebody passed over is in sight, too.
     assert!(has(&window, "p2 · ESCARGOT, higher · realism: passed over"));
     click(&mut window, "Only questions without an answer");
     until(&mut window, "the missing one", |it| {

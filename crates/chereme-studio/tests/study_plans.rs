@@ -45,7 +45,7 @@ fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
     let recipe = "Recipe of condition 2, with {} for the sign";
     assert_eq!(value(&window, recipe), "{} | place both by up 10cm");
     assert!(contains(&window, "Nobody has answered “places”"));
-    // What is stored again without a change is the same plan.
+    // A plan that is stored again without a change stays the same.
     store(&mut window);
     assert_eq!(plan_of(&window, "places"), before);
 

@@ -37,8 +37,8 @@ pub struct StudyRequest {
     pub hypotheses: Vec<Hypothesis>,
     /// The rules by which participants are left out.
     pub exclusions: Vec<Exclusion>,
-    /// The plan that is changed, if it is not a new one: what a request does not state is taken from it, such as the texts
-    /// of questions and what is asked about participants.
+    /// The plan that is changed, if it is not a new one. The request takes from it all that it does not state itself, such
+    /// as the texts of questions and the questions about participants.
     pub before: Option<Plan>,
     /// Trials of that plan which neither items and conditions nor a table can state.
     pub others: Vec<Trial>,

@@ -74,7 +74,7 @@ pub struct ColumnUse {
     pub cells: u64,
     /// The first of these cells.
     pub example: String,
-    /// What the example stands for, if it is a code.
+    /// The answer for which the example stands, if it is a code.
     pub stands_for: String,
 }
 

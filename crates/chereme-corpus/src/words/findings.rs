@@ -203,8 +203,8 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "dites dans une correspondance ce qu’est chacune : {mapping}",
     ),
     (
-        "the times are frames, and a table states no rate; import the recording, and then its annotations with `annotate CORPUS --in RECORDING from FILE`",
-        "les temps sont des images, et une table n’indique pas de cadence ; importez l’enregistrement, puis ses annotations avec `annotate CORPUS --in RECORDING from FILE`",
+        "the times are frames, and a table states no rate; write them in seconds, or as hh:mm:ss.ms",
+        "les temps sont des images, et une table n’indique pas de cadence ; écrivez-les en secondes, ou comme hh:mm:ss.ms",
     ),
     (
         "the shapes should be shares from 0 to 1 and reach {n}: they are read as percent",

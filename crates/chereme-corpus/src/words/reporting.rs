@@ -222,7 +222,7 @@ pub fn reason(reason: &Reason) -> Text {
     }
 }
 
-/// Returns an answer, or why there is none.
+/// Returns an answer, or the reason why it is missing.
 #[must_use]
 pub fn answer_text(row: &AnswerRow, language: Language) -> String {
     match row.state {

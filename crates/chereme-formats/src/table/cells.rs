@@ -59,8 +59,7 @@ pub enum TableError {
     },
     /// The times are frames of a recording that the table does not have.
     #[error(
-        "line {line}: the times are frames, and a table states no rate; import the recording, and then its annotations \
-         with `annotate CORPUS --in RECORDING from FILE`"
+        "line {line}: the times are frames, and a table states no rate; write them in seconds, or as hh:mm:ss.ms"
     )]
     Frames {
         /// The line, counted from 1.

@@ -81,7 +81,7 @@ pub(super) struct Label {
     pub(super) word: Word,
 }
 
-/// What the names of one skeleton have in common.
+/// Habits that the names of one skeleton share.
 #[derive(Debug, Clone, Copy, Default)]
 struct Habits {
     /// Whether digits are numbered from 0, the thumb, rather than from 1.

@@ -1,4 +1,4 @@
-//! Findings about a skeleton of which parts stay unread, or whose size is unusual.
+//! Findings about skeletons that have unread parts or an unusual size.
 
 use chereme_motion::Finger;
 
@@ -28,7 +28,7 @@ pub(super) fn hands(anatomy: &Anatomy) -> Vec<ReportFinding> {
     Side::BOTH.into_iter().filter_map(unread).collect()
 }
 
-/// Returns a finding for each hand that has joints of some digits only: what the others do is unknown.
+/// Returns a finding for each hand that has joints of some digits only: the posture of the others is unknown.
 pub(super) fn digits(anatomy: &Anatomy) -> Vec<ReportFinding> {
     let unread = |side: Side| {
         let thumb = std::iter::once(("thumb".to_owned(), Part::Thumb(side, 1)));

@@ -1,4 +1,4 @@
-//! Whatever signers agreed to: what is not public is nowhere in the folder, also after a withdrawal.
+//! Tests with any mixture of consents: the folder has only what is public, also after a withdrawal.
 
 use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};

@@ -27,7 +27,7 @@ pub(super) struct Draft {
     pub(super) distance_from: Option<String>,
     pub(super) hypotheses: Vec<Hypothesis>,
     pub(super) exclusions: Vec<Exclusion>,
-    /// What the lines of the form do not state, such as the texts of questions.
+    /// The plan before: it has all that the lines of the form do not state, such as the texts of questions.
     pub(super) before: Option<Plan>,
     /// Trials that neither signs and conditions nor a table can state.
     pub(super) others: Vec<Trial>,
