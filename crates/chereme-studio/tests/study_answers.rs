@@ -125,6 +125,10 @@ fn a_map_of_columns_is_shown_before_a_table_of_people_is_imported() {
     click(&mut window, "Import the answers");
     stored(&mut window, before);
     until(&mut window, "the answers", |it| {
+        has(it, "8 · ESCARGOT, captured · realism: 2")
+    });
+    click(&mut window, "Only questions without an answer");
+    until(&mut window, "the missing one", |it| {
         has(it, "8 · ESCARGOT, higher · realism: not reached")
     });
     let study = corpus(&window).study("places").expect("stored");

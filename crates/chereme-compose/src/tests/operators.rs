@@ -1,6 +1,12 @@
 //! The effect of each operator.
 
+use std::sync::Arc;
+
+use chereme_motion::Anatomy;
+use chereme_sign::Handedness;
+
 use super::*;
+use crate::testing::{Axes, skeleton};
 
 #[test]
 fn broken_contacts_are_reported() {
@@ -302,6 +308,19 @@ fn letters_take_the_time_from_the_recipe_or_else_from_the_corpus() {
         report.contains("learned from 12 transitions of fingers"),
         "{report}"
     );
+}
+
+#[test]
+fn touches_stay_touches_on_another_body() {
+    let touching = made("ESCARGOT | place right at chin with index");
+    for (axes, size) in [(Axes::Plain, 0.8), (Axes::Odd, 1.1)] {
+        let body = Arc::new(skeleton(axes, size));
+        let anatomy = Arc::new(Anatomy::detect(&body));
+        let from = (&touching.clip, &touching.anatomy);
+        let moved = crate::on_body(from, Handedness::Right, (&body, &anatomy)).expect("moved");
+        assert!(moved.contacts > 0, "{size}");
+        assert_eq!(moved.lost, Vec::<String>::new(), "{size}");
+    }
 }
 
 #[test]

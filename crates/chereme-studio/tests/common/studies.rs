@@ -14,7 +14,7 @@ use eframe::egui::{DroppedFile, DroppedFileHandle, Key};
 use egui_kittest::kittest::Queryable;
 
 use super::tiers::{ALT, CTRL};
-use super::{Window, contains, idle, options, small_corpus, until, window};
+use super::{Window, click, contains, idle, options, small_corpus, until, window};
 
 /// Opens a window whose corpus is made first by `prepare`, with the pane of studies large.
 pub fn opened_with<'a>(
@@ -54,6 +54,13 @@ pub fn type_into(window: &mut Window<'_>, label: &str, text: &str) {
     window.run_steps(2);
     window.get_by_label(label).type_text(text);
     window.run_steps(3);
+}
+
+/// Scrolls to a part of a long form, and clicks on it.
+pub fn click_in_sight(window: &mut Window<'_>, label: &str) {
+    window.get_by_label(label).scroll_to_me();
+    window.run_steps(40);
+    click(window, label);
 }
 
 /// Returns the request of a study of one sign in two conditions.

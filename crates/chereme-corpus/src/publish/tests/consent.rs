@@ -9,7 +9,7 @@ use proptest::test_runner::TestRunner;
 
 use super::*;
 use crate::consent::tests::{any_audience, corpus};
-use crate::db::recordings;
+use crate::db::{recordings, tiers};
 use crate::{Audience, ConsentChange, Name, RecordingChange, SignChange, unheard};
 
 /// Generated signs with their recipes: one from one recording, one from two, one from a generated one.
@@ -125,7 +125,7 @@ impl Case {
 
     /// Returns whether everybody may see a recording (0), its annotation (1), or a sign made from it (2), read off the
     /// rules and not off the program: everybody concerned says so, nobody says no, and the terms allow it.
-    fn may(&self, recording: &str, kind: usize, signers: &BTreeMap<String, String>) -> bool {
+    fn may(&self, recording: &str, kind: usize, people: &People) -> bool {
         let of = format!("recording:{recording}");
         let own = self.of(&of);
         let inputs = MADE.iter().find(|it| it.0 == recording).map(|it| it.2);
@@ -139,11 +139,13 @@ impl Case {
             return false;
         }
         let kind = if inputs.is_some() { 2 } else { kind };
-        let signer = signers
+        let signer = people
+            .signers
             .get(recording)
             .map(|it| self.of(&format!("signer:{it}"))[kind]);
+        let strange = people.strangers.contains(recording);
         let refused = no(own[kind]) || signer.is_some_and(no);
-        let known = own[kind].is_some() || signer.is_none_or(|it| it.is_some());
+        let known = own[kind].is_some() || !strange && signer.is_none_or(|it| it.is_some());
         let terms = licence.is_some() || inputs.is_some();
         let mut from = inputs.into_iter().flatten();
         !refused
@@ -155,7 +157,7 @@ impl Case {
                     .iter()
                     .position(|it| *it == of)
                     .expect("known");
-                self.licences[at] != LICENCES[2] && self.may(input, 2, signers)
+                self.licences[at] != LICENCES[2] && self.may(input, 2, people)
             })
     }
 }
@@ -184,29 +186,46 @@ fn uids(corpus: &Corpus) -> Vec<String> {
     all
 }
 
-fn signers(corpus: &Corpus) -> BTreeMap<String, String> {
+/// The people in recordings.
+struct People {
+    /// The signers by recording.
+    signers: BTreeMap<String, String>,
+    /// Recordings with a tier of somebody who stated nothing.
+    strangers: BTreeSet<String>,
+}
+
+fn people(corpus: &Corpus) -> People {
     let connection = corpus.store.read();
     let rows = recordings::recordings(connection).expect("read");
-    let named = rows.into_iter().filter_map(|row| {
-        let signer = recordings::signer(connection, row.signer_id?).expect("read");
-        Some((row.name, signer?.name))
-    });
-    named.collect()
+    let (mut signers, mut strangers) = (BTreeMap::new(), BTreeSet::new());
+    for row in rows {
+        let signer = row
+            .signer_id
+            .map(|id| recordings::signer(connection, id).expect("read"));
+        let signer = signer.flatten().map(|it| it.name);
+        let tiers = tiers::tiers(connection, row.id).expect("read");
+        let mut named = tiers.iter().filter_map(|it| it.participant.as_ref());
+        if named.any(|it| Some(it) != signer.as_ref()) {
+            strangers.insert(row.name.clone());
+        }
+        signers.extend(signer.map(|it| (row.name, it)));
+    }
+    People { signers, strangers }
 }
 
 /// Publishes, and checks the folder against the rules.
 fn check(corpus: &mut Corpus, case: &Case, to: &Path) -> std::result::Result<(), TestCaseError> {
-    let signers = signers(corpus);
+    let people = people(corpus);
     let captured = CAPTURED.map(|it| (it.4, it.1));
     let all = captured.into_iter().chain(MADE.map(|it| (it.0, it.0)));
     let (mut shown, mut moving) = (BTreeSet::new(), BTreeSet::new());
     let (mut secret, mut still) = (Vec::new(), Vec::new());
     for (gloss, recording) in all {
-        match case.may(recording, 1, &signers) {
+        match case.may(recording, 1, &people) {
             true => drop(shown.insert(gloss.to_owned())),
             false => secret.push(gloss),
         }
-        match case.may(recording, 0, &signers) && case.may(recording, 1, &signers) {
+        match case.may(recording, 0, &people) && case.may(recording, 1, &people) {
             true => drop(moving.insert(gloss.to_owned())),
             false => still.push(gloss),
         }
@@ -222,7 +241,13 @@ fn check(corpus: &mut Corpus, case: &Case, to: &Path) -> std::result::Result<(),
         return Ok(());
     }
     let done = done.expect("published");
-    prop_assert_eq!((done.signs, done.moving), (shown.len(), moving.len()));
+    prop_assert_eq!(
+        (done.signs, done.moving),
+        (shown.len(), moving.len()),
+        "{:?} {:?}",
+        shown,
+        done.left_out
+    );
     let files = files(to);
     let part = |start: &str, end: &str| -> BTreeSet<String> {
         let names = files
