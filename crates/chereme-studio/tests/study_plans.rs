@@ -95,7 +95,7 @@ fn a_stored_plan_is_opened_as_it_is_and_its_change_is_undone() {
     });
     // The hypothesis is removed in the form, and comes back with an undo.
     click(&mut window, "Change the plan");
-    click_in_sight(&mut window, "Hypotheses (1)");
+    // The form shows the parts that were open before.
     window.run_steps(40);
     click_in_sight(&mut window, "Remove Hypothesis 1");
     store(&mut window);
