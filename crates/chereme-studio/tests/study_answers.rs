@@ -64,7 +64,12 @@ fn answers_are_listed_filtered_deleted_and_exported() {
     stored(&mut window, before);
     assert_eq!(corpus(&window).studies().expect("read")[0].answers, 3);
 
-    click(&mut window, "Save the answers");
+    // The list grows again, and moves the button below it.
+    until(&mut window, "the longer list", |it| {
+        contains(it, "of 4; a click")
+    });
+    idle(&mut window);
+    click_in_sight(&mut window, "Save the answers");
     until(&mut window, "the table", |it| contains(it, "Saved: "));
     let text = std::fs::read_to_string(folder.path().join("places-answers.csv"));
     assert_eq!(text.expect("written").lines().count(), 4);
