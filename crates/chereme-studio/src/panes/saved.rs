@@ -20,7 +20,9 @@ pub(super) struct SavedTo {
     proposed: bool,
     paths: Paths,
     pub(super) saving: Option<WorkId>,
-    /// The file that was written before, which may be written again.
+    /// The file that is being written.
+    asked: Option<PathBuf>,
+    /// The file that was written, which may be written again.
     own: Option<PathBuf>,
 }
 
@@ -47,12 +49,15 @@ impl SavedTo {
         }
         let to = PathBuf::from(self.to.trim());
         let force = self.own.as_ref() == Some(&to);
-        save.clicked().then_some((to, force))
+        save.clicked().then(|| {
+            self.asked = Some(to.clone());
+            (to, force)
+        })
     }
 
-    /// Takes the path once it is written.
-    pub(super) fn take(&mut self) {
-        self.own = Some(PathBuf::from(self.to.trim()));
+    /// Notes that the file is written.
+    pub(super) fn written(&mut self) {
+        self.own = self.asked.take();
     }
 }
 

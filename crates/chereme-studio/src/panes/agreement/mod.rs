@@ -509,7 +509,7 @@ impl Pane for AgreementPane {
             }
         } else if self.saved.saving.take_if(|it| *it == id).is_some() {
             if matches!(ended, Ok(Outcome::DisagreementsWritten)) {
-                self.saved.take();
+                self.saved.written();
             }
         } else if self.writing.take_if(|it| *it == id).is_some()
             && let Ok(Outcome::Adjudicated(done)) = ended

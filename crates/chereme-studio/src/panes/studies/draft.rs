@@ -56,18 +56,13 @@ pub(super) fn show(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, out: &
             ui.weak(helps);
         }
     }
-    if let Some(plan) = pane.planned.plan.clone() {
+    if let Some(plan) = pane.planned.plan.take() {
         pane.trials(ui, seen, &plan, out);
+        pane.planned.plan = Some(plan);
     }
     match back {
         false => pane.draft = Some(draft),
-        true => {
-            pane.come = true;
-            pane.reading = None;
-            if draft != Draft::default() {
-                pane.unfinished = Some(draft);
-            }
-        }
+        true => pane.leave(draft),
     }
 }
 
@@ -100,10 +95,10 @@ fn store(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, draft: &Draft, o
     let answered = draft.changes.as_ref().filter(|it| it.people > 0);
     let free = answered.is_none_or(|it| it.name != draft.name.trim());
     let locked = seen.snapshot.is_read_only();
-    let plan = pane.planned.sound().cloned();
+    let is_sound = pane.planned.sound().is_some();
     ui.horizontal_wrapped(|ui| {
         let idle = !seen.is_running(pane.planning) && !locked;
-        let ready = named && free && idle && plan.is_some();
+        let ready = named && free && idle && is_sound;
         let store = ui.add_enabled(ready, Button::new(seen.say(words::STORE)));
         let why = match (locked, named, free) {
             (true, ..) => Some(shell::READ_ONLY_WHY),
@@ -115,10 +110,12 @@ fn store(pane: &mut Studies, ui: &mut Ui, seen: &PaneInput<'_>, draft: &Draft, o
             Some(why) => store.on_disabled_hover_text(seen.say(why)),
             None => store,
         };
-        if let Some(plan) = plan.filter(|_| store.clicked()) {
+        if store.clicked()
+            && let Some(plan) = pane.planned.sound()
+        {
+            let job = studying::plan(plan.clone(), draft.distance_from.clone());
+            pane.planning = Some(out.work(job));
             pane.wrong.clear();
-            let from = draft.distance_from.clone();
-            pane.planning = Some(out.work(studying::plan(plan, from)));
         }
         if let Some(why) = why.filter(|_| !locked) {
             ui.weak(seen.say(why));

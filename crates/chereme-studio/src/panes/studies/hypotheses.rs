@@ -1,5 +1,7 @@
 //! The hypotheses of a plan: added, changed and removed.
 
+use std::borrow::Cow;
+
 use chereme_corpus::study::plan::{Comparison, Expectation, Hypothesis, Plan, Selection, Texts};
 use eframe::egui::{CollapsingHeader, DragValue, Ui};
 
@@ -80,12 +82,12 @@ pub(super) fn show(ui: &mut Ui, seen: &PaneInput<'_>, draft: &mut Draft, plan: &
     let header = CollapsingHeader::new(title).id_salt("hypotheses");
     header.show(ui, |ui| {
         ui.weak(seen.say(words::HYPOTHESES_HELP));
-        let mut plan = plan.clone();
+        let mut plan = Cow::Borrowed(plan);
         if draft.distance_from.is_some() {
             let distance = chereme_corpus::study::DISTANCE.to_owned();
-            plan.trials.iter_mut().take(1).for_each(|it| {
-                it.measures.insert(distance.clone(), 0.0);
-            });
+            if let Some(first) = plan.to_mut().trials.first_mut() {
+                first.measures.insert(distance, 0.0);
+            }
         }
         for (at, it) in draft.hypotheses.iter_mut().enumerate() {
             ui.push_id(at, |ui| {

@@ -111,8 +111,10 @@ pub(crate) struct Studies {
     draft: Option<Draft>,
     /// The plan of the form, and its faults.
     planned: Planned,
-    /// A plan whose form was left before it was stored.
-    unfinished: Option<Draft>,
+    /// The form as it was opened; nothing for a plan that was left before.
+    opened: Option<Draft>,
+    /// Plans whose forms were left before they were stored, the last one last.
+    unfinished: Vec<Draft>,
     /// A file for the form that was chosen or dropped, and then the work that reads it.
     file: Option<(Choose, PathBuf)>,
     reading: Option<(Choose, WorkId)>,
@@ -169,8 +171,8 @@ impl Forms {
                 self.answers.report = Some(report.as_ref().clone());
             }
             Ok(Outcome::AnswersListed(list)) => self.list.found = Some(list.clone()),
-            Ok(Outcome::AnswersWritten) => self.list.saved.take(),
-            Ok(Outcome::PlanWritten) => self.plan.take(),
+            Ok(Outcome::AnswersWritten) => self.list.saved.written(),
+            Ok(Outcome::PlanWritten) => self.plan.written(),
             Ok(Outcome::Reported(report)) => self.report.found = Some(report.clone()),
             Ok(Outcome::ReportWritten(files)) => self.report.saved = files.first().cloned(),
             Ok(_) | Err(Error::Stopped) => {}
@@ -262,8 +264,7 @@ impl Studies {
             Choose::Columns => self.forms.answers.take_map(it),
             _ => match Corpus::read_plan(&it.text, &it.file) {
                 Ok(plan) => {
-                    self.draft = Some(Draft::of_plan(&plan));
-                    self.come = true;
+                    self.open(Draft::of_plan(&plan));
                 }
                 Err(error) => self.wrong = Wrong::each(&error),
             },
@@ -290,7 +291,6 @@ impl Studies {
             }
         }
         let open = !seen.snapshot.is_read_only();
-        let mut begun = None;
         ui.horizontal_wrapped(|ui| {
             let new = ui.add_enabled(open, Button::new(seen.say(words::NEW)));
             let new = new.on_disabled_hover_text(seen.say(shell::READ_ONLY_WHY));
@@ -298,10 +298,15 @@ impl Studies {
                 new.request_focus();
             }
             if new.clicked() {
-                begun = Some(Draft::default());
+                self.open(Draft::default());
             }
-            if self.unfinished.is_some() && ui.button(seen.say(words::CONTINUE)).clicked() {
-                begun = self.unfinished.take();
+            let left = !self.unfinished.is_empty();
+            if left
+                && ui.button(seen.say(words::CONTINUE)).clicked()
+                && let Some(draft) = self.unfinished.pop()
+            {
+                self.open(draft);
+                self.opened = None;
             }
             let file = ui.add_enabled(open, Button::new(seen.say(words::PLAN_OF_FILE)));
             if file
@@ -311,9 +316,21 @@ impl Studies {
                 out.send(Command::Choose(Choose::Plan));
             }
         });
-        if begun.is_some() {
-            (self.draft, self.come) = (begun, true);
-            self.wrong.clear();
+    }
+
+    /// Opens the form of a plan. A plan whose form is open is kept as one that was left.
+    fn open(&mut self, draft: Draft) {
+        self.unfinished.extend(self.draft.take());
+        self.opened = Some(draft.clone());
+        (self.draft, self.come) = (Some(draft), true);
+        self.wrong.clear();
+    }
+
+    /// Leaves the form of a plan, which is kept if it was changed.
+    fn leave(&mut self, draft: Draft) {
+        (self.come, self.reading) = (true, None);
+        if self.opened.take().as_ref() != Some(&draft) {
+            self.unfinished.push(draft);
         }
     }
 
@@ -362,9 +379,7 @@ impl Studies {
             if change.clicked() {
                 let all = self.all.clone().unwrap_or_default();
                 let taken: Vec<&str> = all.iter().map(|it| it.plan.name.as_str()).collect();
-                self.draft = Some(Draft::of(it, &taken));
-                self.come = true;
-                self.wrong.clear();
+                self.open(Draft::of(it, &taken));
             }
             let delete = ui.add_enabled(open, Button::new(seen.say(words::DELETE)));
             let delete = delete
@@ -504,9 +519,9 @@ impl Pane for Studies {
             Ok(Outcome::TrialClip(made)) => self.clip.made = Some(made.clone()),
             Ok(Outcome::Planned(name)) => {
                 // Another plan may have been begun since.
-                for draft in [&mut self.draft, &mut self.unfinished] {
-                    drop(draft.take_if(|it| it.name.trim() == name));
-                }
+                let stored = |it: &Draft| it.name.trim() == name;
+                drop(self.draft.take_if(|it| stored(it)));
+                self.unfinished.retain(|it| !stored(it));
                 self.choose(name.clone());
                 // Results of the replaced plan are of no use.
                 self.forms = Forms::default();
