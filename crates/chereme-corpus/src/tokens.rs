@@ -326,7 +326,8 @@ fn resolved(field: Field, handedness: Handedness) -> Field {
     }
 }
 
-fn handedness(connection: &Connection, recording: &RecordingRow) -> Result<Handedness> {
+/// Returns the handedness of a recording's signer.
+pub(crate) fn handedness(connection: &Connection, recording: &RecordingRow) -> Result<Handedness> {
     let signer = match recording.signer_id {
         Some(id) => recordings::signer(connection, id)?,
         None => None,

@@ -17,8 +17,8 @@ use super::png;
 use crate::Corpus;
 use crate::address::Address;
 use crate::built_in_body;
-use crate::db::recordings;
 use crate::error::{Error, Result};
+use crate::tokens::handedness;
 
 /// The bodies of a dictionary.
 pub(super) struct Bodies {
@@ -74,14 +74,7 @@ impl Bodies {
         if clip.frames() == 0 {
             return Ok(None);
         }
-        let handedness = match moving.stretch.recording.signer_id {
-            Some(id) => recordings::signer(corpus.store.read(), id)?.and_then(|it| it.handedness),
-            None => None,
-        };
-        let handedness = match handedness.as_deref() {
-            Some("left") => Handedness::Left,
-            _ => Handedness::Right,
-        };
+        let handedness = handedness(corpus.store.read(), &moving.stretch.recording)?;
         let Some((clip, anatomy, is_apart)) =
             self.placed(clip, Arc::new(moving.anatomy), handedness)?
         else {

@@ -148,7 +148,7 @@ impl Folder {
     fn others(&self) -> Result<Vec<String>> {
         let list = fs::read_to_string(self.to.join(LIST)).unwrap_or_default();
         let known = list.lines().filter(|it| is_inside(it));
-        let known: BTreeMap<String, ()> = known.map(|it| (composed(it).into_owned(), ())).collect();
+        let known: BTreeSet<String> = known.map(|it| composed(it).into_owned()).collect();
         let mut others = Vec::new();
         self.walk("", 0, &known, &mut others)?;
         Ok(others)
@@ -158,7 +158,7 @@ impl Folder {
         &self,
         prefix: &str,
         depth: usize,
-        known: &BTreeMap<String, ()>,
+        known: &BTreeSet<String>,
         others: &mut Vec<String>,
     ) -> Result<()> {
         let folder = self.to.join(prefix);
@@ -180,11 +180,13 @@ impl Folder {
             // A link is moved as one, whatever it leads to.
             let is_folder = entry.file_type().map_err(fault)?.is_dir();
             let inside = format!("{plain}/");
-            if is_folder && (holds(known, &inside) || holds(&self.written, &inside)) {
+            let of_old = first_from(known.range(inside.clone()..), &inside);
+            let of_new = first_from(self.written.range(inside.clone()..).map(|it| it.0), &inside);
+            if is_folder && (of_old || of_new) {
                 self.walk(&format!("{own}/"), depth + 1, known, others)?;
-            } else if !is_folder && known.contains_key(&plain) {
+            } else if !is_folder && known.contains(&plain) {
                 continue;
-            } else if self.written.contains_key(&plain) || holds(&self.written, &inside) {
+            } else if self.written.contains_key(&plain) || of_new {
                 return Err(
                     Error::wrong(format!("{own:?} was not written by a publication"))
                         .at(entry.path().display().to_string())
@@ -205,10 +207,9 @@ pub(super) fn is_published(to: &Path) -> bool {
     to.join(LIST).is_file() || old.is_ok_and(|it| it.join(LIST).is_file())
 }
 
-/// Reports whether a name begins with a text.
-fn holds<T>(names: &BTreeMap<String, T>, start: &str) -> bool {
-    let mut after = names.range(start.to_owned()..);
-    after.next().is_some_and(|it| it.0.starts_with(start))
+/// Reports whether the first of some names begins with a text.
+fn first_from<'n>(mut names: impl Iterator<Item = &'n String>, start: &str) -> bool {
+    names.next().is_some_and(|it| it.starts_with(start))
 }
 
 impl Drop for Folder {

@@ -172,8 +172,9 @@ impl Corpus {
         let query = options.query.as_deref().filter(|it| !it.trim().is_empty());
         let found = entries::collect(self, query, &permissions, options.notes, progress)?;
         let left_out = left_out(&found);
-        // If every sign of an older publication was withdrawn, its pages may not stay.
-        let withdrawn = !left_out.is_empty() && folder::is_published(to);
+        // If every sign of an older publication was withdrawn, its pages may not stay. Without terms nothing was.
+        let refused = left_out.iter().any(|it| it.why != Withheld::NoTerms);
+        let withdrawn = refused && folder::is_published(to);
         if found.all.is_empty() && !withdrawn {
             return Err(nothing(&left_out));
         }
