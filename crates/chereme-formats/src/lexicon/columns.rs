@@ -7,7 +7,7 @@ use crate::table::Row;
 use crate::tally::Findings;
 use chereme_sign::query::number;
 use chereme_sign::{Choice, Remedy};
-use chereme_sign::{Component, Phase, TierRole, TierTopic};
+use chereme_sign::{Component, HandRef, Phase, TierRole, TierTopic};
 use serde::Serialize;
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::LazyLock;
@@ -282,42 +282,61 @@ fn state_hands(columns: &mut [Column]) {
             feature,
             ..
         } = &mut column.meaning
-            && component.is_manual()
-            && !matches!(
-                feature.as_deref(),
-                Some("handedness" | "relation" | "alternating")
-            )
+            && is_of_a_hand(*component, feature.as_deref())
         {
             *hand = Some(Hands::One(own));
         }
     }
 }
 
+/// Returns whether a feature belongs to one hand, and not to both together as their relation does.
+fn is_of_a_hand(component: Component, feature: Option<&str>) -> bool {
+    let both = ["handedness", "relation", "alternating"];
+    component.is_manual() && !feature.is_some_and(|it| both.contains(&it))
+}
+
 /// Reports columns that hold the same component of the same hand: each sign has the values of all of them.
 fn report_shared(columns: &[Column], findings: &mut Findings) {
-    let mut titles: BTreeMap<String, Vec<&str>> = BTreeMap::new();
+    let mut shared: BTreeMap<String, Vec<&Column>> = BTreeMap::new();
     for column in columns {
         if matches!(column.meaning, Meaning::Coding { .. }) && column.confidence < 1.0 {
-            let same = titles.entry(column.meaning.to_string()).or_default();
-            same.push(&column.title);
+            let same = shared.entry(column.meaning.to_string()).or_default();
+            same.push(column);
         }
     }
-    for (meaning, titles) in titles {
-        if let [first, second, ..] = titles[..] {
+    for (meaning, same) in shared {
+        if let [first, second, ..] = same[..] {
+            let (first, other, own) =
+                (&first.title, &second.title, second_meaning(&second.meaning));
             findings.push(
                 Finding::warning(
                     1,
-                    format!("the columns {first:?} and {second:?} are both taken for {meaning}; signs have the values of both"),
+                    format!("the columns {first:?} and {other:?} are both taken for {meaning}; signs have the values of both"),
                 )
                 .with_remedy(Remedy::choice(
                     Choice::TierRoles,
-                    format!("say in a mapping what each is: {{\"columns\": {{{second:?}: \"weak.{meaning}\"}}}}").replace(
-                        "weak.dominant.",
-                        "weak.",
-                    ),
+                    format!("say in a mapping what each is: {{\"columns\": {{{other:?}: \"{own}\"}}}}"),
                 )),
             );
         }
+    }
+}
+
+/// Returns the meaning that the second of two columns of one meaning is likely to have: the same of the weak hand, or an
+/// attribute.
+fn second_meaning(meaning: &Meaning) -> Meaning {
+    let mut own = meaning.clone();
+    match &mut own {
+        Meaning::Coding {
+            hand: hand @ (None | Some(Hands::One(HandRef::Dominant))),
+            component,
+            feature,
+            ..
+        } if is_of_a_hand(*component, feature.as_deref()) => {
+            *hand = Some(Hands::One(HandRef::Weak));
+            own
+        }
+        _ => Meaning::Attribute,
     }
 }
 
@@ -602,6 +621,19 @@ mod tests {
             said[0].contains("\"Handshape\" and \"Handform\""),
             "{said:?}"
         );
+        // The remedy names what a mapping takes.
+        for (title, second) in [
+            ("configuration", "weak.configuration"),
+            ("final.dominant.configuration", "final.weak.configuration"),
+            ("left.configuration", "attribute"),
+            ("configuration.handedness", "attribute"),
+            ("nonmanual.mouth", "attribute"),
+        ] {
+            let own = second_meaning(&column(title, &Mapping::default()).meaning);
+            assert_eq!(own.to_string(), second, "{title}");
+            let mapping = format!(r#"{{"columns": {{"x": "{own}"}}}}"#);
+            assert!(Mapping::from_json(&mapping).is_ok(), "{mapping}");
+        }
     }
 
     #[test]

@@ -24,6 +24,18 @@ pub struct ConventionGuess {
     pub reasons: Vec<String>,
 }
 
+impl ConventionGuess {
+    /// Returns the reason that doubts the unit, if it gives the body a stature that few people have.
+    #[must_use]
+    pub fn unusual_stature(&self) -> Option<&str> {
+        let mut reasons = self.reasons.iter().map(String::as_str);
+        reasons.find(|it| it.starts_with(UNUSUAL))
+    }
+}
+
+/// The beginning of the reason that doubts the unit.
+const UNUSUAL: &str = "a stature of ";
+
 /// The units in which files are written, each with its name and its length in metres. Acclaim's unit is 1/0.45 inch,
 /// as CMU's skeletons state it.
 const UNITS: [(&str, f64); 5] = [
@@ -185,7 +197,7 @@ fn unit(
     ));
     let sure = if STATURE.contains(&stature) { 1.0 } else { 0.5 };
     if sure < 1.0 {
-        reasons.push(format!("a stature of {stature:.2} m is unusual"));
+        reasons.push(format!("{UNUSUAL}{stature:.2} m is unusual"));
     }
     (name, metres, sure)
 }

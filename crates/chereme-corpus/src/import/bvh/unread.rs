@@ -4,6 +4,13 @@ use chereme_motion::Finger;
 
 use super::*;
 
+fn roles() -> Remedy {
+    Remedy::choice(
+        Choice::JointRoles,
+        "if a joint is one of these, say so in a roles file (--roles)",
+    )
+}
+
 /// Returns a finding for each hand that cannot be read, because joints of its arm were not found although others were.
 pub(super) fn hands(anatomy: &Anatomy) -> Vec<ReportFinding> {
     let unread = |side: Side| {
@@ -19,10 +26,7 @@ pub(super) fn hands(anatomy: &Anatomy) -> Vec<ReportFinding> {
                 side.name(),
                 missing.join(", ")
             ),
-            Remedy::choice(
-                Choice::JointRoles,
-                "if a joint is one of these, say so in a roles file (--roles)",
-            ),
+            roles(),
         ))
     };
     Side::BOTH.into_iter().filter_map(unread).collect()
@@ -48,10 +52,7 @@ pub(super) fn digits(anatomy: &Anatomy) -> Vec<ReportFinding> {
                 side.name(),
                 missing.join(", ")
             ),
-            Remedy::choice(
-                Choice::JointRoles,
-                "if a joint is one of these, say so in a roles file (--roles)",
-            ),
+            roles(),
         ))
     };
     Side::BOTH.into_iter().filter_map(unread).collect()
@@ -59,10 +60,7 @@ pub(super) fn digits(anatomy: &Anatomy) -> Vec<ReportFinding> {
 
 /// Returns a finding if the inferred unit gives the body a stature that few people have.
 pub(super) fn unusual(guess: &ConventionGuess, options: &ImportOptions) -> Option<ReportFinding> {
-    let reason = guess
-        .reasons
-        .iter()
-        .find(|reason| reason.starts_with("a stature of"))?;
+    let reason = guess.unusual_stature()?;
     if options.metres_per_unit.is_some() {
         return None;
     }

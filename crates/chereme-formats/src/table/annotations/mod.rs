@@ -98,10 +98,10 @@ const NAMES: [&str; 8] = [
 /// Reads a table of changes; columns may stand in any order.
 ///
 /// A time is in seconds (`1.5`, `1.5s`), milliseconds (`1500ms`), minutes (`0:01.500`, `1:02:03.5`) or
-/// frames (`f12`); decimal commas are read in clock times, and where commas do not separate cells. Bare numbers are in `unit`, or in the unit in the title of their column (`start_ms`,
-/// `start [s]`, ELAN's `Begin Time - msec`), else in seconds. `action` is `add` (the default), `remove` or
-/// `set`. An added annotation needs a tier and either both times, a start and a `duration`, or a parent; a
-/// changed or removed one its id, or its tier and start.
+/// frames (`f12`); decimal commas are read in clock times, and where commas do not separate cells. Bare numbers are in
+/// `unit`, or in the unit in the title of their column (`start_ms`, `start [s]`, ELAN's `Begin Time - msec`), else in
+/// seconds. `action` is `add` (the default), `remove` or `set`. An added annotation needs a tier and either both times, a
+/// start and a `duration`, or a parent; a changed or removed one its id, or its tier and start.
 ///
 /// Tab-delimited exports of ELAN are such tables, with titles and without, with a row for each annotation
 /// or a column for each tier.
