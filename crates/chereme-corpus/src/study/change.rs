@@ -1,6 +1,6 @@
 //! A stored plan as the request that makes it, so that it can be changed.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::distances::DISTANCE;
 use super::plan::{Plan, Question, QuestionKind, Role, Trial, text_in};
@@ -201,16 +201,11 @@ fn usual_end(plan: &Plan) -> i64 {
 fn measured_from(plan: &Plan) -> Option<String> {
     let distance = |it: &Trial| it.measures.get(DISTANCE).copied();
     let fits = |condition: &&str| {
-        let mut own = plan.trials.iter().filter(|it| it.condition == *condition);
-        let zero = own.all(|it| distance(it).is_some_and(|it| it.abs() < SAME));
-        let has = |item: &str| {
-            let mut all = plan.trials.iter();
-            all.any(|it| it.condition == *condition && it.item == item)
-        };
-        zero && plan
-            .trials
-            .iter()
-            .all(|it| distance(it).is_some() == has(&it.item))
+        let own = || plan.trials.iter().filter(|it| it.condition == *condition);
+        let items: BTreeSet<&str> = own().map(|it| it.item.as_str()).collect();
+        let has = |it: &Trial| distance(it).is_some() == items.contains(it.item.as_str());
+        own().all(|it| distance(it).is_some_and(|it| it.abs() < SAME))
+            && plan.trials.iter().all(has)
     };
     let conditions = plan.conditions();
     conditions.into_iter().find(fits).map(str::to_owned)

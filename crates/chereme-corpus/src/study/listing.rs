@@ -9,7 +9,7 @@ use super::answers::{Answer, Participant};
 use super::order::{self, Shown};
 use super::plan::{Plan, Role, Trial};
 use super::stored;
-use super::{Study, found};
+use super::{Study, found, no_participant};
 use crate::Corpus;
 use crate::db::search::begin_reading;
 use crate::error::Result;
@@ -114,6 +114,23 @@ impl AnswerFilter {
         self.participant.as_ref().is_none_or(by)
             && (!self.missing || gone.contains(&row.state))
             && fold(&self.text).split_whitespace().all(within)
+    }
+}
+
+impl AnswerList {
+    /// Keeps the rows that a filter holds.
+    ///
+    /// # Errors
+    /// Fails if the filter names a participant who is not in the list.
+    pub fn keep(&mut self, filter: &AnswerFilter) -> Result<()> {
+        let known = |code: &str| self.participants.iter().any(|it| it.code == code.trim());
+        match &filter.participant {
+            Some(code) if !known(code) => Err(no_participant(code)),
+            _ => {
+                self.rows.retain(|it| filter.holds(it));
+                Ok(())
+            }
+        }
     }
 }
 
@@ -242,18 +259,21 @@ fn missing_of(plan: &Plan, person: &Participant) -> Vec<AnswerRow> {
         true => AnswerState::Skipped,
         false => AnswerState::NotReached,
     };
+    let mut answered: BTreeMap<_, BTreeSet<(&str, &str)>> = BTreeMap::new();
+    for it in &person.answers {
+        let of_item = answered.entry((&it.item, &it.part, it.role)).or_default();
+        of_item.insert((&it.condition, &it.question));
+    }
+    let none = BTreeSet::new();
     let mut rows = Vec::new();
     for trial in &plan.trials {
-        let other = |it: &&Answer| {
-            (&it.item, &it.part, it.role) == (&trial.item, &trial.part, trial.role)
-                && it.condition != trial.condition
-        };
-        if plan.design.between && person.answers.iter().any(|it| other(&it)) {
+        let of_item = answered.get(&(&trial.item, &trial.part, trial.role));
+        let of_item = of_item.unwrap_or(&none);
+        if plan.design.between && of_item.iter().any(|it| it.0 != trial.condition) {
             continue;
         }
         for question in plan.asked(trial) {
-            let has = |it: &Answer| is_of(trial, it) && it.question == question.name;
-            if !person.answers.iter().any(has) {
+            if !of_item.contains(&(trial.condition.as_str(), question.name.as_str())) {
                 let block = u32::from(trial.role != Role::Training);
                 rows.push(absent(person, trial, &question.name, (block, state)));
             }
@@ -374,7 +394,7 @@ mod tests {
             plan_sha256: String::new(),
             participants: vec![person(&plan(), 3, &[2, 3], false)],
         };
-        let list = list(&study);
+        let mut list = list(&study);
         let count = |filter: AnswerFilter| list.rows.iter().filter(|it| filter.holds(it)).count();
         let of = |text: &str| AnswerFilter {
             text: text.to_owned(),
@@ -393,6 +413,10 @@ mod tests {
             participant: Some("p2".to_owned()),
             ..of("")
         };
-        assert_eq!(count(nobody), 0);
+        assert_eq!(count(nobody.clone()), 0);
+        let error = list.keep(&nobody).expect_err("nobody has that code");
+        assert!(error.remedy().is_some() && list.rows.len() == 4, "{error}");
+        list.keep(&of("chat")).expect("kept");
+        assert_eq!(list.rows.len(), 1);
     }
 }

@@ -68,6 +68,14 @@ pub use overview::StudyOverview;
 pub use request::{StudyRequest, words};
 pub use wide::ColumnUse;
 
+/// Returns the error for a code that no participant has.
+fn no_participant(code: &str) -> Error {
+    let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
+    error.advise(Remedy::command(
+        "`chereme study answers CORPUS NAME` lists the codes",
+    ))
+}
+
 /// A study with everything that was answered.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Study {
@@ -198,10 +206,7 @@ impl Corpus {
             let Stored { id, plan, .. } = found(connection, study)?;
             let people = db::participants(connection, id, Some(code.trim()))?;
             let Some((row, _)) = people.first() else {
-                let error = Error::wrong(format!("no participant has the code {code:?}")).at(code);
-                return Err(error.advise(Remedy::command(
-                    "`chereme study answers CORPUS NAME --to FILE.csv` lists the codes",
-                )));
+                return Err(no_participant(code));
             };
             db::delete_participant(connection, *row)?;
             Ok(((), plan.name))

@@ -149,8 +149,8 @@ pub(super) const STUDIES: &[(&str, &str)] = &[
         "aucun participant n’a le code {code}",
     ),
     (
-        "`chereme study answers CORPUS NAME --to FILE.csv` lists the codes",
-        "`chereme study answers CORPUS NOM --to FICHIER.csv` donne la liste des codes",
+        "`chereme study answers CORPUS NAME` lists the codes",
+        "`chereme study answers CORPUS NOM` donne la liste des codes",
     ),
     ("there is no study {name}", "il n’y a pas d’étude {name}"),
     ("a question needs a name", "une question a besoin d’un nom"),

@@ -63,7 +63,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         sum(|it| it.skipped),
         sum(|it| it.not_reached),
     ))?;
-    list.rows.retain(|it| filter.holds(it));
+    list.keep(&filter)?;
     let language = output.language();
     let row = |it: &AnswerRow| {
         let right = it.right.map(|right| match right {
