@@ -13,8 +13,8 @@ use crate::words::Words;
 ///
 /// A consent belongs to a signer, or to one recording; where both say something, the narrower of the two holds. After a
 /// merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). Without a
-/// statement a consent is unknown, and `chereme publish` leaves out what it covers. Movement shows who signs even without a face: state it only
-/// after the person agreed. Without an option the consents are listed.
+/// statement a consent is unknown, and `chereme publish` leaves out what it covers. Movement shows who signs even without a
+/// face: state it only after the person agreed. Without an option the consents are listed.
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:

@@ -31,9 +31,10 @@ use crate::words::Words;
 /// body, too; the report names the signs for which that failed.
 ///
 /// `--json` gives "page", "signs", "moving", "signers", "files", "bytes", "terms" (signs by terms of use), "undrawn"
-/// (handshapes without a picture), "namesakes" (handshapes with the picture of the usual one of that name), "armless" (signs whose movement has no arms to show), "cut" (signs whose movement is
-/// cut), "own_body", "apart" (signs with a touch that is lost on that body), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why", "movement" (whether only that was left out),
-/// "signs", "first" and "remedy".
+/// (handshapes without a picture), "namesakes" (handshapes with the picture of the usual one of that name), "armless"
+/// (signs whose movement has no arms to show), "cut" (signs whose movement is cut), "own_body", "apart" (signs with a touch
+/// that is lost on that body), "without_pairs" (whether there are too many minimal pairs) and "left_out", each with "why",
+/// "movement" (whether only that was left out), "signs", "first" and "remedy".
 #[derive(Debug, clap::Args)]
 #[command(after_help = "\
 Examples:
