@@ -136,6 +136,34 @@ fn a_change_of_an_answered_plan_is_a_study_of_its_own() {
 }
 
 #[test]
+fn plans_that_were_left_stay_whatever_is_looked_at_since() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened_with(folder.path(), Language::English, |corpus| {
+        plan(corpus, &places("places"));
+    });
+    until(&mut window, "the study", |it| has(it, "places"));
+    for name in ["first", "second"] {
+        click(&mut window, "New study");
+        type_into(&mut window, "Name of the study", name);
+        click(&mut window, "Back to the studies");
+    }
+    // A stored plan that was only looked at is not unfinished.
+    click(&mut window, "places");
+    click(&mut window, "Change the plan");
+    assert_eq!(value(&window, "Name of the study"), "places");
+    click(&mut window, "Back to the studies");
+    for name in ["second", "first"] {
+        click(&mut window, "Continue the unfinished plan");
+        assert_eq!(value(&window, "Name of the study"), name);
+        type_into(&mut window, "Signs", "ESCARGOT");
+        idle(&mut window);
+        store(&mut window);
+    }
+    assert!(!has(&window, "Continue the unfinished plan"));
+    assert_eq!(corpus(&window).studies().expect("read").len(), 3);
+}
+
+#[test]
 fn a_table_of_trials_is_typed_or_dropped_and_each_wrong_row_is_named() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path(), Language::French);

@@ -346,6 +346,9 @@ fn the_last_sign_can_be_withdrawn() {
     let before = files(&to);
     publish(&mut corpus, Some("gloss=NOTHING")).expect_err("no sign was meant");
     assert_eq!(files(&to), before);
+    // Forgotten terms withdraw nothing.
+    publish(&mut corpus, Some("gloss=LION")).expect_err("no terms are stated");
+    assert_eq!(files(&to), before);
     consented(&mut corpus, "signer:Ada", Audience::Nobody);
     let done = publish(&mut corpus, None).expect("published");
     assert_eq!((done.signs, done.left_out.is_empty()), (0, false));
