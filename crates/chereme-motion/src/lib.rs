@@ -28,6 +28,7 @@
 //! | [`column`](mod@column) | the numbers of a channel exactly as a file gives them, gaps as gaps |
 //! | [`times`] | the times of a track's frames: at an even rate, or each with its own time |
 //! | [`ends`] | odd first and last frames, and the movement between two rests |
+//! | [`lapses`] | frames within a take whose movement was lost |
 //! | [`euler`] | rotation orders and angles, as files write them |
 //! | [`axes`] | units and axes of a file, and the conversion to model space and back |
 //! | [`interpolation`] | the transitions from one posture to another |
@@ -52,6 +53,7 @@ pub mod fit;
 pub mod hand;
 pub mod ik;
 pub mod interpolation;
+pub mod lapses;
 pub mod markers;
 pub mod pose;
 pub mod skeleton;

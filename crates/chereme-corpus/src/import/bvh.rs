@@ -1,6 +1,7 @@
 //! Imports motion files: a recording with its skeleton and its movement, every number stored exactly.
 
 mod again;
+mod odd;
 mod root;
 mod unread;
 
@@ -31,6 +32,7 @@ use crate::error::{Error, Result};
 use crate::movement::{self, BLOCK_FRAMES, ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 
+pub(super) use odd::report_odd_frames;
 use root::{mend_order, mend_root, root_order, root_read, root_scale};
 
 /// The number of frames in a header above which it is taken for damaged.
@@ -109,7 +111,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     let first = first_frame(&hierarchy, &found.first, rate, summary.root_fix)?;
     let scale = root_scale(&first, &found.anatomy, found.convention.axes.up().vector());
     mend_root(job, track, summary.root_fix, scale, &mut report)?;
-    report_odd_frames(job, recording, &mut report)?;
+    report_odd_frames(job, recording, &mut report, progress)?;
     let offset_us = job.options.offset_us;
     let kept = super::tracks::keep_beside(job, track, offset_us, &found.anatomy, &mut report)?;
     job.count("tracks", usize::from(kept.is_some()));
@@ -252,31 +254,6 @@ fn listed(names: &[&str]) -> String {
         0 => shown,
         more => format!("{shown} and {more} more"),
     }
-}
-
-/// Reports bind poses, T-poses and jumps at the ends of a recording.
-pub(super) fn report_odd_frames(
-    job: &Job<'_>,
-    recording: i64,
-    report: &mut FileReport,
-) -> Result<()> {
-    let stored = MotionTrack::of(job.connection, recording)?;
-    let anatomy = stored.anatomy(job.connection)?;
-    let odd = stored.odd_frames(job.connection, &anatomy)?;
-    let texts: Vec<String> = odd.iter().map(ToString::to_string).collect();
-    report.understood.odd_frames = Some(texts.clone());
-    if !texts.is_empty() {
-        report.findings.push(ReportFinding {
-            severity: "note",
-            line: None,
-            message: format!(
-                "no part of the movement, and left out of measures and pictures: {}",
-                texts.join("; ")
-            ),
-            remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".into()),
-        });
-    }
-    Ok(())
 }
 
 /// Returns the hash and the JSON under which a skeleton is stored.

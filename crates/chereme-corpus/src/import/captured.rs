@@ -163,7 +163,7 @@ fn scene(
     let (scene, findings) = read(&bytes).map_err(Error::wrong)?;
     job.report_progress(progress)?;
     if let Some((report, recording)) = known.zip(job.again) {
-        return read_again(job, recording, &scene, report);
+        return read_again(job, recording, &scene, report, progress);
     }
     let mut report = begun(job, findings);
     let skeleton = scene.clip.skeleton().clone();
@@ -196,7 +196,7 @@ fn scene(
     let recording = tracks::store(job, new, &mut report)?;
     job.keep(Some(recording), None)?;
     if moves {
-        bvh::report_odd_frames(job, recording, &mut report)?;
+        bvh::report_odd_frames(job, recording, &mut report, progress)?;
     }
     Ok(report)
 }
@@ -239,6 +239,7 @@ fn read_again(
     recording: i64,
     scene: &Scene,
     mut report: FileReport,
+    progress: &mut Progress<'_>,
 ) -> Result<FileReport> {
     let Some(standing) = again::own_track(job, recording, false, &mut report)? else {
         return Ok(report);
@@ -275,7 +276,7 @@ fn read_again(
     report.understood = fresh.understood;
     if report.status == FileStatus::Updated {
         report.findings.extend(fresh.findings);
-        bvh::report_odd_frames(job, recording, &mut report)?;
+        bvh::report_odd_frames(job, recording, &mut report, progress)?;
     }
     Ok(report)
 }

@@ -29,6 +29,9 @@ pub struct Understood {
     /// Frames at the ends that are no part of the movement.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub odd_frames: Option<Vec<String>>,
+    /// Frames in which the movement was probably lost.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub lapses: Option<Vec<String>>,
     /// Tiers of an annotation file, or how ELAN shows them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tiers: Option<Shared<TiersRead>>,

@@ -3,6 +3,58 @@
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const CAPTURES: &[(&str, &str)] = &[
     (
+        "the skeleton's own posture (bind pose)",
+        "la posture propre du squelette (pose de liaison)",
+    ),
+    ("a T-pose", "une pose en T"),
+    ("the body jumps {n} m", "le corps saute de {n} m"),
+    (
+        "the body turns by {n}° at once",
+        "le corps tourne d’un coup de {n}°",
+    ),
+    ("a hand jumps {n} m", "une main saute de {n} m"),
+    (
+        "the body stands still, then jumps {n} cm",
+        "le corps reste immobile, puis saute de {n} cm",
+    ),
+    (
+        "the body jumps {n} cm to the rest pose",
+        "le corps saute de {n} cm vers la pose de repos",
+    ),
+    (
+        "the body jumps {n} cm away and returns",
+        "le corps saute de {n} cm et revient",
+    ),
+    (
+        "the {limb} arm stands still, then jumps {n} cm",
+        "le bras {limb} reste immobile, puis saute de {n} cm",
+    ),
+    (
+        "the {limb} arm jumps {n} cm to the rest pose",
+        "le bras {limb} saute de {n} cm vers la pose de repos",
+    ),
+    (
+        "the {limb} arm jumps {n} cm away and returns",
+        "le bras {limb} saute de {n} cm et revient",
+    ),
+    (
+        "the {side} fingers stand still, then jump {n} cm",
+        "les doigts de la main {side} restent immobiles, puis sautent de {n} cm",
+    ),
+    (
+        "the {side} fingers jump {n} cm to the rest pose",
+        "les doigts de la main {side} sautent de {n} cm vers la pose de repos",
+    ),
+    (
+        "the {side} fingers jump {n} cm away and return",
+        "les doigts de la main {side} sautent de {n} cm et reviennent",
+    ),
+    (
+        "frames {first} to {last}: {what}",
+        "images {first} à {last} : {what}",
+    ),
+    ("frame {n}: {what}", "image {n} : {what}"),
+    (
         "this is no table of channels: its first column is neither a timecode, a time nor a frame number",
         "ce n’est pas une table de canaux : sa première colonne n’est ni un timecode, ni un temps, ni un numéro d’image",
     ),

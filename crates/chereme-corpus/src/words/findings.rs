@@ -143,8 +143,24 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "les lignes finissent par CR LF, comme sous Windows",
     ),
     (
-        "no part of the movement, and left out of measures and pictures: {what}",
-        "ne fait pas partie du mouvement, et reste hors des mesures et des images : {what}",
+        "no part of the movement, and left out of measures and pictures: {list}",
+        "ne fait pas partie du mouvement, et reste hors des mesures et des images : {list}",
+    ),
+    (
+        "the movement was probably lost here: {list}; and {n} times more",
+        "le mouvement a probablement été perdu ici : {list} ; et {n} fois encore",
+    ),
+    (
+        "the movement was probably lost here: {list}",
+        "le mouvement a probablement été perdu ici : {list}",
+    ),
+    (
+        "what is read from these frames may be wrong: look at them, and keep signs clear of them, or mend the capture and import it again",
+        "ce qui est lu de ces images peut être faux : regardez-les, et tenez-en les signes à l’écart, ou corrigez la capture et importez-la de nouveau",
+    ),
+    (
+        "frames stand several times: the movement was recorded at about {n} frames a second",
+        "des images sont là plusieurs fois : le mouvement a été enregistré à environ {n} images par seconde",
     ),
     (
         "a recipe cuts them off: {recipe}",

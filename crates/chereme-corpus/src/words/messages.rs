@@ -543,6 +543,11 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
 
 fn in_french(text: &str, own: &[Forms]) -> Option<String> {
     let part = |blank: &str, part: &str| {
+        if blank == "list" {
+            let each = part.split("; ");
+            let each = each.map(|it| in_french(it, own).unwrap_or_else(|| it.to_owned()));
+            return each.collect::<Vec<_>>().join(" ; ");
+        }
         let side = side_in_french(blank, part).map(str::to_owned);
         side.or_else(|| in_french(part, own))
             .unwrap_or_else(|| part.to_owned())

@@ -76,7 +76,7 @@ pub(super) fn read(
     report.understood = fresh.understood;
     if report.status == FileStatus::Updated {
         report.findings.extend(fresh.findings);
-        report_odd_frames(job, recording, &mut report)?;
+        report_odd_frames(job, recording, &mut report, progress)?;
     }
     Ok(report)
 }

@@ -140,3 +140,70 @@ fn files_too_large_to_be_read_whole_are_refused_before_any_of_it_is_read() {
         fs::remove_file(path).expect("removed");
     }
 }
+
+/// Returns a starter capture in which every channel of some joints is written by `change` from its frame and its number.
+fn changed_capture(name: &str, joints: &[&str], change: impl Fn(usize, &str) -> String) -> String {
+    let (_, bytes) = crate::starter_files()
+        .find(|(file, _)| file.ends_with(format!("{name}.bvh")))
+        .expect("a starter capture");
+    let text = String::from_utf8(bytes.to_vec()).expect("text");
+    let (mut joint, mut lost, mut frame) = (String::new(), Vec::new(), None);
+    let lines = text.lines().map(|line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.as_slice() {
+            ["ROOT" | "JOINT", name] => joint = (*name).to_owned(),
+            ["CHANNELS", _, channels @ ..] => {
+                let is_lost = joints.contains(&joint.as_str());
+                lost.extend(channels.iter().map(|_| is_lost));
+            }
+            ["Frame", "Time:", _] => frame = Some(0),
+            numbers => {
+                if let Some(now) = frame {
+                    frame = Some(now + 1);
+                    let numbers = numbers.iter().zip(&lost);
+                    let numbers = numbers.map(|(number, is_lost)| match is_lost {
+                        true => change(now, number),
+                        false => (*number).to_owned(),
+                    });
+                    return numbers.collect::<Vec<_>>().join(" ") + "\n";
+                }
+            }
+        }
+        format!("{line}\n")
+    });
+    lines.collect()
+}
+
+#[test]
+fn movement_that_was_lost_for_a_while_is_reported_in_both_languages() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let arm = ["RightArm", "RightForeArm"];
+    let zeros = |frame: usize, number: &str| match frame {
+        180..192 => "0".to_owned(),
+        _ => number.to_owned(),
+    };
+    let lost = desk.file("lost.bvh", &changed_capture("chat", &arm, zeros));
+    let sound = desk.file("sound.bvh", &changed_capture("chat", &[], zeros));
+    let report = take(&mut corpus, &[lost, sound]);
+    let [lost, sound] = report.files.as_slice() else {
+        panic!("{report:?}");
+    };
+    assert_eq!(sound.understood.lapses.as_deref(), Some(&[][..]));
+    let found = lost.understood.lapses.clone().unwrap_or_default();
+    assert_eq!(found.len(), 1, "{found:?}");
+    assert!(
+        found[0].starts_with("frames 180 to 191: the right arm jumps"),
+        "{found:?}"
+    );
+    let said: Vec<&ReportFinding> = lost
+        .findings
+        .iter()
+        .filter(|it| it.message.contains("lost here"))
+        .collect();
+    assert_eq!((said.len(), said[0].severity), (1, "warning"));
+    let french = crate::words::message(&said[0].message, crate::words::Language::French)
+        .expect("a French form");
+    let is_french = french.contains("perdu ici : images 180 à 191 : le bras droit saute");
+    assert!(is_french, "{french}");
+}

@@ -1,0 +1,477 @@
+//! Lapses of a capture: frames within a take whose movement was lost, and frames that stand several times.
+//!
+//! When cameras or gloves lose a limb, programs write its last posture again and again, write zeros, or follow
+//! something else for a moment. [`Lapses`] finds these frames by their jumps: a lapse begins or ends with a step that is far
+//! longer than those around it. A hand that is held still ends without a jump, and is none. Nothing changes a clip.
+
+use std::fmt;
+use std::ops::Range;
+
+use glam::{DQuat, DVec3};
+
+use crate::anatomy::{Anatomy, Part};
+use crate::clip::Clip;
+use crate::hand::Side;
+use crate::pose::ModelPose;
+
+/// Frames in which the movement of a limb was probably lost.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Lapse {
+    /// The frames, counted from 0.
+    pub frames: Range<usize>,
+    /// The joints that were lost.
+    pub limb: Limb,
+    /// What stands in their place.
+    pub what: Lost,
+}
+
+/// Joints that are lost together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limb {
+    /// All joints.
+    Body,
+    /// The upper arm and the forearm, relative to the collar bone.
+    Arm(Side),
+    /// The joints below the wrist, relative to the hand.
+    Fingers(Side),
+}
+
+/// What a file holds in place of lost movement; distances in metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Lost {
+    /// The posture of the frame before, up to a jump of this distance.
+    Still(f64),
+    /// Zeros or the rest pose, with jumps; this is the longest.
+    Rest(f64),
+    /// Another place, this far away, from which the limb returns.
+    Away(f64),
+}
+
+impl fmt::Display for Limb {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Body => f.write_str("the body"),
+            Self::Arm(side) => write!(f, "the {} arm", side.name()),
+            Self::Fingers(side) => write!(f, "the {} fingers", side.name()),
+        }
+    }
+}
+
+impl fmt::Display for Lapse {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let (Range { start, end }, limb) = (&self.frames, self.limb);
+        match end - start {
+            1 => write!(f, "frame {start}: ")?,
+            _ => write!(f, "frames {start} to {}: ", end - 1)?,
+        }
+        let [stands, jumps, returns] = match limb {
+            Limb::Fingers(_) => ["stand", "jump", "return"],
+            _ => ["stands", "jumps", "returns"],
+        };
+        let cm = |metres: f64| 100.0 * metres;
+        match self.what {
+            Lost::Still(far) => write!(f, "{limb} {stands} still, then {jumps} {:.0} cm", cm(far)),
+            Lost::Rest(far) => write!(f, "{limb} {jumps} {:.0} cm to the rest pose", cm(far)),
+            Lost::Away(far) => write!(f, "{limb} {jumps} {:.0} cm away and {returns}", cm(far)),
+        }
+    }
+}
+
+/// The lapses of a clip.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Lapses {
+    /// The lapses, in order of time.
+    pub found: Vec<Lapse>,
+    /// The number of frames in which all joints stand as in the frame before, in short runs.
+    pub repeated: usize,
+    /// The number of frames outside of longer runs of such frames.
+    pub moving: usize,
+}
+
+/// The longest run of equal frames that a conversion from another frame rate writes.
+const SHORT: usize = 8;
+/// The least number of frames that stand still before a jump.
+const STILL: usize = 3;
+/// A jump is at least this many times as long as four of five steps around it, up to this many seconds away.
+const JUMP: (f64, f64) = (3.0, 0.2);
+/// The longest time for which a limb is away, in seconds, and the largest share of the jump by which it misses its own
+/// path when it returns.
+const AWAY: (f64, f64) = (0.15, 0.35);
+/// Rotations within this angle of rest, in radians, count as rest.
+const SAME: f64 = 1e-3;
+
+impl Limb {
+    /// Returns every limb, the body first.
+    fn all() -> impl Iterator<Item = Self> {
+        let sides = Side::BOTH.into_iter();
+        std::iter::once(Self::Body)
+            .chain(sides.flat_map(|side| [Self::Arm(side), Self::Fingers(side)]))
+    }
+
+    /// Returns the least jump after frames that stand still or at rest, in metres.
+    fn least(self) -> f64 {
+        match self {
+            Self::Body | Self::Arm(_) => 0.03,
+            Self::Fingers(_) => 0.015,
+        }
+    }
+
+    /// Returns the least jump away, in metres, and its least speed in metres per second: beyond what people can do.
+    fn beyond(self) -> (f64, f64) {
+        match self {
+            Self::Body => (0.5, 20.0),
+            Self::Arm(_) => (0.2, 12.0),
+            Self::Fingers(_) => (0.06, 8.0),
+        }
+    }
+}
+
+impl Lapses {
+    /// Examines a clip; `anatomy` belongs to its skeleton.
+    #[must_use]
+    pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
+        let mut lapses = Self::default();
+        if clip.frames() < 2 {
+            lapses.moving = clip.frames();
+            return lapses;
+        }
+        let mut paths: Vec<Path> = Limb::all()
+            .filter_map(|limb| Path::begin(limb, clip, anatomy))
+            .collect();
+        let mut model = clip.model_pose(0);
+        for frame in 0..clip.frames() {
+            model.set(clip.skeleton(), &clip.pose(frame));
+            for path in &mut paths {
+                path.push(clip, &model, frame);
+            }
+        }
+        for path in &paths {
+            for lapse in path.lapses(clip.rate().per_second()) {
+                let is_known = lapses.found.iter().any(|known: &Lapse| {
+                    known.limb == Limb::Body && meets(&known.frames, &lapse.frames)
+                });
+                if !is_known {
+                    lapses.found.push(lapse);
+                }
+            }
+        }
+        lapses.found.sort_by_key(|lapse| lapse.frames.start);
+        if let Some(body) = paths.iter().find(|path| path.limb == Limb::Body) {
+            let long = |run: &Range<usize>| run.len() > SHORT;
+            let (long, short): (Vec<_>, Vec<_>) = runs(&body.same).partition(long);
+            lapses.repeated = short.iter().map(ExactSizeIterator::len).sum();
+            lapses.moving = clip.frames() - long.iter().map(ExactSizeIterator::len).sum::<usize>();
+        }
+        lapses
+    }
+}
+
+/// The movement of a limb.
+struct Path {
+    limb: Limb,
+    joints: Vec<usize>,
+    /// The joint relative to which the limb is measured.
+    base: Option<usize>,
+    /// The joints whose places are measured, and whether it is their tips.
+    measured: Vec<(usize, bool)>,
+    /// The measured places, in metres: those of the first frame, of the second and so on.
+    places: Vec<DVec3>,
+    /// Whether each frame is equal to the one before.
+    same: Vec<bool>,
+    /// Whether each frame is at rest.
+    rest: Vec<bool>,
+}
+
+impl Path {
+    fn begin(limb: Limb, clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
+        let skeleton = clip.skeleton();
+        let (joints, base, measured) = match limb {
+            Limb::Body => {
+                let parts = [
+                    Part::Hips,
+                    Part::UpperArm(Side::Right),
+                    Part::UpperArm(Side::Left),
+                ];
+                let found = parts.iter().filter_map(|&part| anatomy.joint(part));
+                let measured: Vec<_> = found.map(|joint| (joint, false)).collect();
+                ((0..skeleton.len()).collect::<Vec<_>>(), None, measured)
+            }
+            Limb::Arm(side) => {
+                let arm = anatomy.arm(side)?;
+                let base = skeleton.parent(arm.upper)?;
+                let measured = vec![(arm.forearm, false), (arm.hand, false)];
+                (vec![arm.upper, arm.forearm], Some(base), measured)
+            }
+            Limb::Fingers(side) => {
+                let joints = anatomy.fingers(side);
+                let is_last = |joint: &usize| {
+                    !joints
+                        .iter()
+                        .any(|&other| skeleton.parent(other) == Some(*joint))
+                };
+                let measured: Vec<_> = joints
+                    .iter()
+                    .filter(|joint| is_last(joint))
+                    .map(|&joint| (joint, true))
+                    .collect();
+                let base = anatomy.joint(Part::Hand(side))?;
+                (joints, Some(base), measured)
+            }
+        };
+        (!measured.is_empty()).then_some(Self {
+            limb,
+            joints,
+            base,
+            measured,
+            places: Vec::with_capacity(clip.frames()),
+            same: Vec::with_capacity(clip.frames()),
+            rest: Vec::with_capacity(clip.frames()),
+        })
+    }
+
+    fn push(&mut self, clip: &Clip, model: &ModelPose, frame: usize) {
+        let skeleton = clip.skeleton();
+        let (origin, turned) = match self.base {
+            Some(base) => (model.position(base), model.rotation(base).inverse()),
+            None => (DVec3::ZERO, DQuat::IDENTITY),
+        };
+        for &(joint, is_tip) in &self.measured {
+            let at = model.tip(skeleton, joint).filter(|_| is_tip);
+            let at = at.unwrap_or_else(|| model.position(joint));
+            self.places.push(turned * (at - origin));
+        }
+        let turns = |joint: usize| &clip.channel(joint).rotations;
+        let is_same = frame > 0
+            && self.joints.iter().all(|&joint| {
+                turns(joint)[frame] == turns(joint)[frame - 1]
+                    && clip.translation(joint, frame) == clip.translation(joint, frame - 1)
+            });
+        let is_rest = if is_same {
+            self.rest[frame - 1]
+        } else {
+            // The root turns in the world.
+            let own = self.joints.iter().filter(|&&joint| joint > 0);
+            let near = |turn: DQuat, rest: DQuat| turn.angle_between(rest) < SAME;
+            own.clone()
+                .all(|&joint| near(turns(joint)[frame], DQuat::IDENTITY))
+                || own
+                    .clone()
+                    .all(|&joint| near(turns(joint)[frame], skeleton.joint(joint).rest))
+        };
+        self.same.push(is_same);
+        self.rest.push(is_rest);
+    }
+
+    /// Returns the distance between two frames: that of the place that moves farthest.
+    fn far(&self, a: usize, b: usize) -> f64 {
+        let count = self.measured.len();
+        let places = |frame: usize| &self.places[frame * count..(frame + 1) * count];
+        let far = places(a).iter().zip(places(b)).map(|(a, b)| a.distance(*b));
+        far.fold(0.0, f64::max)
+    }
+
+    /// Returns a length that four of five steps just before and after these frames do not exceed; the steps into and
+    /// out of them do not count, nor do frames that stand still.
+    fn usual(&self, frames: &Range<usize>, rate: f64) -> f64 {
+        let near = (JUMP.1 * rate).ceil() as usize;
+        let before = frames.start.saturating_sub(near + 1)..frames.start.saturating_sub(1);
+        let after = frames.end..(frames.end + near).min(self.same.len() - 1);
+        let steps = before.chain(after).filter(|&frame| !self.same[frame + 1]);
+        let mut steps: Vec<f64> = steps.map(|frame| self.far(frame, frame + 1)).collect();
+        steps.sort_by(f64::total_cmp);
+        let at = (0.8 * steps.len() as f64) as usize;
+        steps.get(at).copied().unwrap_or(0.0)
+    }
+
+    fn lapses(&self, rate: f64) -> Vec<Lapse> {
+        let mut found: Vec<Lapse> = Vec::new();
+        let all = self.same.len();
+        let lapse = |frames: Range<usize>, what: Lost| Lapse {
+            frames,
+            limb: self.limb,
+            what,
+        };
+        for run in runs(&self.rest).filter(|run| run.len() < all) {
+            let usual = JUMP.0 * self.usual(&run, rate);
+            let inner = [
+                (run.start > 0).then(|| self.far(run.start - 1, run.start)),
+                (run.end < all).then(|| self.far(run.end - 1, run.end)),
+            ];
+            let jumps = inner.iter().flatten();
+            if jumps
+                .clone()
+                .all(|&far| far > usual && far > self.limb.least())
+            {
+                let most = jumps.copied().fold(0.0, f64::max);
+                found.push(lapse(run, Lost::Rest(most)));
+            }
+        }
+        for run in runs(&self.same).filter(|run| run.len() >= STILL && run.end < all) {
+            let far = self.far(run.end - 1, run.end);
+            if far > self.limb.least()
+                && far > JUMP.0 * self.usual(&run, rate)
+                && !found.iter().any(|known| meets(&known.frames, &run))
+            {
+                found.push(lapse(run, Lost::Still(far)));
+            }
+        }
+        let (least, speed) = self.limb.beyond();
+        let longest = ((AWAY.0 * rate).ceil() as usize).max(1);
+        let mut frame = 1;
+        while frame < all {
+            let far = self.far(frame - 1, frame);
+            if far > least && far * rate > speed {
+                let back = (frame + 1..(frame + longest + 1).min(all))
+                    .find(|&back| self.far(frame - 1, back) < AWAY.1 * far);
+                if let Some(back) = back.filter(|&back| {
+                    let run = frame..back;
+                    far > JUMP.0 * self.usual(&run, rate)
+                        && !found.iter().any(|known| meets(&known.frames, &run))
+                }) {
+                    found.push(lapse(frame..back, Lost::Away(far)));
+                    frame = back;
+                }
+            }
+            frame += 1;
+        }
+        found
+    }
+}
+
+/// Returns whether two ranges of frames have one in common.
+fn meets(a: &Range<usize>, b: &Range<usize>) -> bool {
+    a.start < b.end && b.start < a.end
+}
+
+/// Returns the runs of frames for which this holds.
+fn runs(holds: &[bool]) -> impl Iterator<Item = Range<usize>> + '_ {
+    let mut start = 0;
+    holds.chunk_by(|a, b| a == b).filter_map(move |run| {
+        let from = start;
+        start += run.len();
+        run[0].then_some(from..start)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::anatomy::fixtures::{PLAIN, body, roles};
+    use crate::clip::Channel;
+    use crate::time::Rate;
+
+    /// Returns two seconds of signing at 100 frames a second, with the posture of each frame taken from the frame that
+    /// `source` names.
+    fn take(source: impl Fn(usize, usize) -> Option<usize>) -> (Clip, Anatomy) {
+        let skeleton = std::sync::Arc::new(body(PLAIN));
+        let anatomy = Anatomy::with_roles(&skeleton, &roles(&skeleton)).expect("a body");
+        let rate = Rate::new(100, 1).expect("a rate");
+        let turned = |joint: usize, frame: usize| {
+            let (own, at) = (joint as f64, frame as f64 / 100.0);
+            let size = if joint == 0 { 0.02 } else { 0.4 };
+            let axis = DVec3::new(own.sin(), own.cos(), 0.5).normalize();
+            DQuat::from_axis_angle(axis, size * (5.0 * at).sin())
+        };
+        let channels = (0..skeleton.len()).map(|joint| {
+            let from = |frame: usize| source(joint, frame);
+            let turn = |frame| from(frame).map_or(DQuat::IDENTITY, |at| turned(joint, at));
+            let place = |frame| match from(frame) {
+                Some(at) => DVec3::new(0.0, 1.0, at as f64 / 500.0),
+                None => DVec3::ZERO,
+            };
+            Channel {
+                rotations: (0..200).map(turn).collect(),
+                translations: (joint == 0).then(|| (0..200).map(place).collect()),
+            }
+        });
+        let channels = channels.collect();
+        let clip = Clip::new(skeleton, rate, channels).expect("a clip");
+        (clip, anatomy)
+    }
+
+    fn found(source: impl Fn(usize, usize) -> Option<usize>) -> Lapses {
+        let (clip, anatomy) = take(source);
+        Lapses::of(&clip, &anatomy)
+    }
+
+    fn joints(limb: Limb) -> Vec<usize> {
+        let (clip, anatomy) = take(|_, frame| Some(frame));
+        match limb {
+            Limb::Body => (0..clip.skeleton().len()).collect(),
+            Limb::Arm(side) => anatomy
+                .arm(side)
+                .map(|arm| vec![arm.upper, arm.forearm])
+                .unwrap_or_default(),
+            Limb::Fingers(side) => anatomy.fingers(side),
+        }
+    }
+
+    #[test]
+    fn a_limb_that_stands_still_or_drops_to_rest_is_found_with_its_frames() {
+        for limb in Limb::all() {
+            let own = joints(limb);
+            let held = found(|joint, frame| match own.contains(&joint) {
+                true if (56..71).contains(&frame) => Some(55),
+                _ => Some(frame),
+            });
+            let [lapse] = held.found.as_slice() else {
+                panic!("{limb}: {held:?}");
+            };
+            assert_eq!((&lapse.frames, lapse.limb), (&(56..71), limb));
+            assert!(
+                matches!(lapse.what, Lost::Still(far) if far > limb.least()),
+                "{lapse:?}"
+            );
+            let rests = found(|joint, frame| match own.contains(&joint) {
+                true if (56..71).contains(&frame) => None,
+                _ => Some(frame),
+            });
+            let [lapse] = rests.found.as_slice() else {
+                panic!("{limb}: {rests:?}");
+            };
+            assert_eq!((&lapse.frames, lapse.limb), (&(56..71), limb));
+            assert!(matches!(lapse.what, Lost::Rest(_)), "{lapse:?}");
+        }
+    }
+
+    #[test]
+    fn an_arm_that_leaves_for_a_moment_is_found() {
+        let own = joints(Limb::Arm(Side::Left));
+        let away = found(|joint, frame| match own.contains(&joint) {
+            true if (80..84).contains(&frame) => Some(frame + 60),
+            _ => Some(frame),
+        });
+        assert_eq!(away.found.len(), 1, "{away:?}");
+        assert_eq!(away.found[0].frames, 80..84);
+        assert!(
+            away.found[0].to_string().contains("the left arm jumps"),
+            "{away:?}"
+        );
+    }
+
+    #[test]
+    fn movement_and_holds_without_jumps_are_no_lapses() {
+        assert_eq!(found(|_, frame| Some(frame)).found, []);
+        let eased = |frame: usize| match frame {
+            80..120 => 80,
+            120.. => frame - 39,
+            _ => frame,
+        };
+        assert_eq!(found(|_, frame| Some(eased(frame))).found, []);
+        assert_eq!(found(|_, _| Some(7)).found, []);
+        assert_eq!(found(|_, _| None).found, []);
+    }
+
+    #[test]
+    fn frames_that_stand_twice_are_counted() {
+        let twice = found(|_, frame| Some(frame / 2 * 2));
+        assert_eq!(
+            (twice.repeated, twice.moving, twice.found.len()),
+            (100, 200, 0)
+        );
+        let once = found(|_, frame| Some(frame));
+        assert_eq!((once.repeated, once.moving), (0, 200));
+        let held = found(|_, frame| Some(frame.min(150)));
+        assert_eq!((held.repeated, held.moving), (0, 151));
+    }
+}
