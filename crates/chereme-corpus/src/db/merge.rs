@@ -500,6 +500,65 @@ pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> R
     Ok(false)
 }
 
+/// The tables of rows that are a part of another row: the table, its column for the other row, and that row's table.
+const OWNED: [(&str, &str, &str); 14] = [
+    ("source_file", "recording_id", "recording"),
+    ("track", "recording_id", "recording"),
+    ("channel", "track_id", "track"),
+    ("tier", "recording_id", "recording"),
+    ("tier", "parent_id", "tier"),
+    ("annotation", "tier_id", "tier"),
+    ("annotation", "parent_id", "annotation"),
+    ("token", "recording_id", "recording"),
+    ("token", "annotation_id", "annotation"),
+    ("attribute", "token_id", "token"),
+    ("notation", "token_id", "token"),
+    ("recipe", "recording_id", "recording"),
+    ("study_participant", "study_id", "study"),
+    ("study_answer", "participant_id", "study_participant"),
+];
+
+/// Returns the rows of which a row, with references by uid, is a part.
+pub(crate) fn owners(table: &str, image: &Image) -> Vec<Key> {
+    let own = OWNED.iter().filter(|it| it.0 == table);
+    own.filter_map(|(_, column, owner)| {
+        let uid = image.get(*column)?.as_str()?;
+        Some(((*owner).to_owned(), uid.to_owned()))
+    })
+    .collect()
+}
+
+/// Returns the rows to which a row, with references by uid, refers without being a part of them.
+pub(crate) fn needed(table: &str, image: &Image) -> Vec<Key> {
+    let is_owner = |column: &str| OWNED.iter().any(|it| (it.0, it.1) == (table, column));
+    image
+        .iter()
+        .filter(|(column, _)| !is_owner(column))
+        .filter_map(|(column, value)| {
+            let other = refers_to(table, column)?;
+            Some((other.to_owned(), value.as_str()?.to_owned()))
+        })
+        .collect()
+}
+
+/// Returns the rows that are a part of a row: their tables, uids and numbers.
+pub(crate) fn owned(
+    connection: &Connection,
+    table: &str,
+    id: i64,
+) -> Result<Vec<(&'static str, String, i64)>> {
+    let mut all = Vec::new();
+    for (part, column, _) in OWNED.iter().filter(|it| it.2 == table) {
+        let sql = format!("SELECT hex(uid), id FROM main.{part} WHERE {column} = ?1 ORDER BY id");
+        let mut statement = connection.prepare_cached(&sql)?;
+        let rows = statement.query_map([id], |row| Ok((*part, row.get(0)?, row.get(1)?)))?;
+        for row in rows {
+            all.push(row?);
+        }
+    }
+    Ok(all)
+}
+
 /// Tables whose rows are parts of a row of another table.
 const PARTS: [(&str, &str); 6] = [
     ("track", "track_block"),

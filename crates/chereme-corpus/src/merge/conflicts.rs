@@ -1,5 +1,7 @@
 //! Conflicts of a merge: both candidates are kept, listed, and decided one by one.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use chereme_motion::Instant;
 use chereme_sign::Remedy;
 use rusqlite::Connection;
@@ -7,7 +9,9 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 use sha2::{Digest, Sha256};
 
+use super::rules;
 use crate::Corpus;
+use crate::db::delete::delete_recording;
 use crate::db::history::refers_to;
 use crate::db::merge::{self as db, Image, Side};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
@@ -90,6 +94,9 @@ pub(crate) struct Open {
     pub(crate) other: Option<String>,
     pub(crate) from: String,
     pub(crate) decided: Option<Decision>,
+    /// Whether this side removed it and it came back, because the other side changed something in it.
+    #[serde(default)]
+    pub(crate) came_back: bool,
 }
 
 /// Stores a conflict, unless the same one is stored already.
@@ -151,6 +158,7 @@ pub(crate) fn keep_annotation(
         other,
         from: from.to_owned(),
         decided: None,
+        came_back: false,
         uid,
     };
     keep(connection, &open)
@@ -385,6 +393,7 @@ impl Corpus {
     pub fn decide(&mut self, numbers: &[usize], decision: Decision) -> Result<Vec<CorpusConflict>> {
         self.store.operation("decide", |connection| {
             edits::defer_references(connection)?;
+            let mut known = BTreeMap::new();
             for number in numbers {
                 let key = format!("{PREFIX}{number:06}");
                 let found = db::notes(connection, &key)?;
@@ -394,16 +403,25 @@ impl Corpus {
                         .at(number.to_string())
                         .advise(Remedy::command("`chereme conflicts CORPUS` lists them"))
                 })?;
-                match decision {
-                    Decision::Mine => {}
-                    Decision::Theirs => theirs(connection, &open)?,
-                    Decision::Both => both(connection, &open)?,
+                for recording in recordings_of(connection, &open)? {
+                    if !known.contains_key(&recording) {
+                        known.insert(recording, rules::broken(connection, recording)?);
+                    }
                 }
+                let done = match decision {
+                    Decision::Mine if open.came_back => without(connection, &open),
+                    Decision::Mine => Ok(()),
+                    Decision::Theirs | Decision::Both if open.came_back => Ok(()),
+                    Decision::Theirs => theirs(connection, &open),
+                    Decision::Both => both(connection, &open),
+                };
+                done.map_err(|error| error.at(format!("conflict {number}")))?;
                 open.decided = Some(decision);
                 let text = serde_json::to_string(&open)
                     .map_err(|error| Error::wrong(error.to_string()))?;
                 db::set_note(connection, &key, &text)?;
             }
+            rules::check(connection, &known)?;
             let all = list(connection)?.into_iter();
             let all: Vec<CorpusConflict> = all.filter(|it| numbers.contains(&it.number)).collect();
             let word = match decision {
@@ -430,7 +448,7 @@ fn local(side: &Side<'_>, table: &str, image: &Image) -> Result<Image> {
         };
         let id = side.id(other, &uid)?.ok_or_else(|| {
             Error::wrong(format!("the {other} that it belongs to was removed here"))
-                .advise("undo the removal first, or decide for mine")
+                .advise("add by hand what the other side has, or decide for mine")
         })?;
         *value = Value::from(id);
     }
@@ -474,25 +492,42 @@ fn theirs(connection: &Connection, open: &Open) -> Result<()> {
             let image = local(&side, &open.table, theirs)?;
             db::insert(connection, &open.table, &image)?;
         }
-        (None, Some(id)) if open.table == "annotation" => remove(connection, id)?,
-        (None, Some(id)) => {
-            if db::is_referred_to(connection, &open.table, id)? {
-                return Err(Error::wrong(format!(
-                    "the {} holds more than the other side removed",
-                    open.table.replace('_', " ")
-                ))
-                .advise("remove by hand what is in it, or decide for mine"));
-            }
-            db::delete_parts(connection, &open.table, id)?;
-            db::delete(connection, &open.table, id)?;
-        }
+        (None, Some(_)) => return without(connection, open),
         (None, None) => {}
     }
     follow(connection, open)
 }
 
+/// Removes the row of a conflict with all of its parts.
+fn without(connection: &Connection, open: &Open) -> Result<()> {
+    if let Some(id) = Side::now(connection).id(&open.table, &open.uid)? {
+        remove_whole(connection, &open.table, id)?;
+    }
+    follow(connection, open)
+}
+
+fn remove_whole(connection: &Connection, table: &str, id: i64) -> Result<()> {
+    match table {
+        "recording" => return delete_recording(connection, id),
+        "annotation" => return remove(connection, id),
+        _ => {}
+    }
+    for (part, _, id) in db::owned(connection, table, id)? {
+        remove_whole(connection, part, id)?;
+    }
+    if db::is_referred_to(connection, table, id)? {
+        return Err(Error::wrong(format!(
+            "the {} holds more than the other side removed",
+            table.replace('_', " ")
+        ))
+        .advise("remove by hand what is in it, or decide for mine"));
+    }
+    db::delete_parts(connection, table, id)?;
+    db::delete(connection, table, id)
+}
+
 /// Removes an annotation with those below it.
-fn remove(connection: &Connection, id: i64) -> Result<()> {
+pub(super) fn remove(connection: &Connection, id: i64) -> Result<()> {
     for child in tiers::children(connection, id)? {
         remove(connection, child.id)?;
     }
@@ -504,7 +539,7 @@ fn both(connection: &Connection, open: &Open) -> Result<()> {
     let Some(theirs) = open.theirs.as_ref().filter(|_| open.table == "annotation") else {
         return match open.table.as_str() {
             // One side removed it: there is no second candidate to add.
-            "annotation" => Ok(()),
+            _ if open.theirs.is_none() || open.mine.is_none() => Ok(()),
             other => Err(Error::wrong(format!(
                 "there can be one {} only",
                 other.replace('_', " ")
@@ -546,6 +581,8 @@ fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
             recording_id: tier.recording_id,
             name,
             position: last + 1,
+            role: tier.role.clone(),
+            hand: tier.hand,
             participant: tier.participant.clone(),
             annotator: tier.annotator.clone(),
             language: tier.language.clone(),
@@ -555,30 +592,26 @@ fn next_to(connection: &Connection, tier: &TierRow) -> Result<i64> {
     )
 }
 
-/// Derives the tokens of the conflict's recording again.
-fn follow(connection: &Connection, open: &Open) -> Result<()> {
+/// Returns the recordings whose tiers a conflict is about.
+fn recordings_of(connection: &Connection, open: &Open) -> Result<BTreeSet<i64>> {
     let side = Side::now(connection);
     let images = [&open.theirs, &open.mine, &open.base].into_iter().flatten();
-    let column = match open.table.as_str() {
-        "annotation" => "tier_id",
-        "tier" => "recording_id",
-        _ => return Ok(()),
-    };
+    let mut all = BTreeSet::new();
     for image in images {
-        let Some(uid) = image.get(column).and_then(Value::as_str) else {
-            continue;
-        };
-        let recording = match open.table.as_str() {
-            "annotation" => match side.id("tier", uid)? {
-                Some(tier) => Some(tiers::tier(connection, tier)?.recording_id),
-                None => None,
-            },
-            _ => side.id("recording", uid)?,
-        };
-        if let Some(recording) = recording {
-            let inventories = inventories::load_of(connection, recording)?;
-            return tokens::derive(connection, recording, None, &inventories);
-        }
+        let name = (open.table.as_str(), open.uid.as_str());
+        all.extend(recording(connection, &side, name, image)?);
+    }
+    Ok(all)
+}
+
+/// Derives the tokens of the conflict's recording again.
+fn follow(connection: &Connection, open: &Open) -> Result<()> {
+    if !["annotation", "tier"].contains(&open.table.as_str()) {
+        return Ok(());
+    }
+    for recording in recordings_of(connection, open)? {
+        let inventories = inventories::load_of(connection, recording)?;
+        tokens::derive(connection, recording, None, &inventories)?;
     }
     Ok(())
 }

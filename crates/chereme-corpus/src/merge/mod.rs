@@ -5,9 +5,15 @@ mod conflicts;
 #[cfg(test)]
 #[path = "tests/laws.rs"]
 mod laws;
+#[cfg(test)]
+#[path = "tests/removals.rs"]
+mod removals;
 mod rows;
+mod rules;
+mod studies;
 #[cfg(test)]
 mod tests;
+mod whole;
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -17,12 +23,12 @@ use serde::Serialize;
 use serde_json::Value;
 
 pub use conflicts::{Candidate, CorpusConflict, Decision};
-use conflicts::{Open, keep};
+use conflicts::{Open, keep, remove};
 pub(crate) use conflicts::{disputes, keep_annotation, waiting};
 
 use crate::Corpus;
 use crate::db::merge::{self as db, Image, Key, Side};
-use crate::db::{edits, recordings, signs, studies, tiers, tracks};
+use crate::db::{edits, recordings, signs, studies as study_rows, tiers, tracks};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
@@ -75,9 +81,10 @@ impl Corpus {
     ///
     /// Rows correspond if they have the same uid. A change that only one side made is taken over, field by field. Three
     /// kinds of change are conflicts: different changes of both sides, a change of a row that the other side removed,
-    /// and an annotation without room on its tier. In a conflict this corpus stays as it is, and the other candidate is
-    /// stored until [`decide`](Self::decide) is called. The common state of the two is that after the last operation
-    /// that their histories share, or `base`.
+    /// and an annotation that would break a rule of its tier, such as one without room. In a conflict this corpus stays as
+    /// it is, and the other candidate is stored until [`decide`](Self::decide) is called; a recording or tier that one
+    /// side removed and in which the other changed something stays whole, or comes back whole, until then. The common state
+    /// of the two is that after the last operation that their histories share, or `base`.
     ///
     /// # Errors
     /// Fails if the corpora have no common beginning and there is no `base`.
@@ -123,7 +130,10 @@ impl Corpus {
                     from: from.clone(),
                     report: MergeReport::default(),
                     recordings: BTreeSet::new(),
-                    came: BTreeSet::new(),
+                    looked_at: BTreeSet::new(),
+                    came: BTreeMap::new(),
+                    back_again: BTreeSet::new(),
+                    roots: BTreeSet::new(),
                     signs: Vec::new(),
                 };
                 work.all(progress)?;
@@ -161,14 +171,21 @@ struct Work<'c> {
     report: MergeReport,
     /// The recordings whose tokens must be derived again.
     recordings: BTreeSet<i64>,
-    /// The annotations that were added or moved as on the other side.
-    came: BTreeSet<String>,
+    /// The recordings whose tiers must keep their rules.
+    looked_at: BTreeSet<i64>,
+    /// The annotations that were added or moved as on the other side, with their row before; nothing if they were added.
+    came: BTreeMap<String, Option<Image>>,
+    /// The rows that this side removed and that come back, because the other side changed something in them.
+    back_again: BTreeSet<Key>,
+    /// The topmost of these rows.
+    roots: BTreeSet<Key>,
     /// The signs that were added from the other side.
     signs: Vec<i64>,
 }
 
 impl Work<'_> {
     fn all(&mut self, progress: &mut Progress<'_>) -> Result<()> {
+        self.bring_back()?;
         let touched: Vec<Key> = self.theirs.touched.keys().cloned().collect();
         let mut gone: Vec<Key> = Vec::new();
         let mut done = 0u64;
@@ -210,9 +227,20 @@ impl Work<'_> {
                 waiting = later;
             }
         }
+        let contested = self.contested(&gone.iter().cloned().collect())?;
+        let mut above = BTreeMap::new();
+        let mut removed = Vec::new();
+        for key in gone {
+            if !self.stays(&key, &contested, &mut above)? {
+                removed.push(key);
+            }
+        }
+        for key in &contested {
+            self.disagree(key, None)?;
+        }
         for table in ORDER.iter().rev() {
-            let mut waiting: Vec<Key> =
-                gone.iter().filter(|key| key.0 == *table).cloned().collect();
+            let of_table = removed.iter().filter(|key| key.0 == *table);
+            let mut waiting: Vec<Key> = of_table.cloned().collect();
             loop {
                 let before = waiting.len();
                 let mut later = Vec::new();
@@ -230,6 +258,12 @@ impl Work<'_> {
                 waiting = later;
             }
         }
+        for key in std::mem::take(&mut self.roots) {
+            self.came_back(&key)?;
+        }
+        let looked_at = std::mem::take(&mut self.looked_at);
+        self.keep_rules(&looked_at)?;
+        self.recordings.extend(looked_at);
         self.derive()?;
         // A sign that only a conflict's candidate names is created again when that candidate is taken.
         for sign in std::mem::take(&mut self.signs) {
@@ -245,6 +279,7 @@ impl Work<'_> {
     /// Derives the tokens of the touched recordings again from their tiers.
     fn derive(&mut self) -> Result<()> {
         for recording in std::mem::take(&mut self.recordings) {
+            self.looked_at.insert(recording);
             let inventories = inventories::load_of(self.connection, recording)?;
             tokens::derive(self.connection, recording, None, &inventories)?;
         }
@@ -286,6 +321,9 @@ impl Work<'_> {
     /// Returns the common states of a row: its state before the other side changed it, and its state on this side when
     /// the other side merged it.
     fn bases(&self, key: &Key) -> Result<Vec<Image>> {
+        if self.back_again.contains(key) {
+            return Ok(Vec::new());
+        }
         let mut bases: Vec<Image> = self
             .theirs
             .touched
@@ -368,7 +406,7 @@ impl Work<'_> {
                 }
                 // Answers belong to their plan, and to the person whose order of trials the seed decided.
                 "study" if self.differs(table, there, &local, "plan_sha256")? => {
-                    let name = studies::free_name(self.connection, &text("name"))?;
+                    let name = study_rows::free_name(self.connection, &text("name"))?;
                     self.report.notes.push(format!(
                         "both have a study {:?} with another plan: that of {} is {name:?} here",
                         text("name"),
@@ -378,7 +416,7 @@ impl Work<'_> {
                 }
                 "study_participant" if self.differs(table, there, &local, "seed")? => {
                     let study = local["study_id"].as_i64().unwrap_or_default();
-                    let code = studies::free_code(self.connection, study, &text("code"))?;
+                    let code = study_rows::free_code(self.connection, study, &text("code"))?;
                     self.report.notes.push(format!(
                         "both have a participant {:?}, two people: that of {} is {code:?} here",
                         text("code"),
@@ -396,7 +434,7 @@ impl Work<'_> {
             if let Some(other) = self.overlapped(None, &local)? {
                 return self.conflict(key, (None, Some(theirs)), Some(other));
             }
-            self.came.insert(uid.to_owned());
+            self.came.insert(uid.to_owned(), None);
         }
         let id = db::insert(self.connection, table, &local)?;
         if table == "sign" {
@@ -407,60 +445,6 @@ impl Work<'_> {
         self.touch(table, &local, id)?;
         *self.report.added.entry(table.to_owned()).or_default() += 1;
         Ok(())
-    }
-
-    /// Returns whether the other side's plan of a study cannot take the place of this side's: people answered this one
-    /// here, or both sides changed it.
-    fn is_other_plan(&self, bases: &[Image], mine: &Image, theirs: &Image) -> Result<bool> {
-        let (own, other) = (mine.get("plan_sha256"), theirs.get("plan_sha256"));
-        let changed = |plan| bases.iter().all(|base| base.get("plan_sha256") != plan);
-        if own == other || !changed(other) {
-            return Ok(false);
-        }
-        let uid = mine.get("uid").and_then(Value::as_str).unwrap_or_default();
-        let id = self.mine.id("study", uid)?.unwrap_or_default();
-        Ok(changed(own) || studies::participant_count(self.connection, id)? > 0)
-    }
-
-    /// Returns the study of this side with the other side's plan; it is added under a free name if this side has none.
-    fn beside(&mut self, theirs: &Image) -> Result<i64> {
-        let text = |column: &str| theirs[column].as_str().unwrap_or_default().to_owned();
-        let mut study = studies::StudyRow {
-            name: text("name"),
-            plan: text("plan"),
-            plan_sha256: text("plan_sha256"),
-        };
-        if let Some(known) = studies::with_plan(self.connection, &study.plan_sha256)? {
-            return Ok(known);
-        }
-        study.name = studies::free_name(self.connection, &study.name)?;
-        self.report.notes.push(format!(
-            "both have a study {:?} with another plan: that of {} is {:?} here",
-            text("name"),
-            self.from,
-            study.name
-        ));
-        *self.report.added.entry("study".to_owned()).or_default() += 1;
-        studies::insert(self.connection, &study)
-    }
-
-    /// Moves a participant of the other side to the study whose plan was answered; returns whether that is another one.
-    fn answered_another(&mut self, uid: &str, local: &mut Image) -> Result<bool> {
-        let row = self.theirs.row("study_participant", uid)?;
-        let study = row.and_then(|it| Some(it.get("study_id")?.as_str()?.to_owned()));
-        let study = study
-            .map(|uid| self.theirs.row("study", &uid))
-            .transpose()?;
-        let Some(study) = study.flatten() else {
-            return Ok(false);
-        };
-        let here = local["study_id"].as_i64().unwrap_or_default();
-        if !self.differs("study", here, &study, "plan_sha256")? {
-            return Ok(false);
-        }
-        let there = self.beside(&study)?;
-        local.insert("study_id".into(), Value::from(there));
-        Ok(true)
     }
 
     /// Returns whether a row of this side has another value in a column.
@@ -535,7 +519,8 @@ impl Work<'_> {
                 if let Some(other) = self.overlapped(Some(id), &whole)? {
                     return self.conflict(key, (Some(mine), Some(theirs)), Some(other));
                 }
-                self.came.insert(uid.to_owned());
+                let before = self.resolved(table, mine)?;
+                self.came.insert(uid.to_owned(), before);
             }
             db::update(self.connection, table, id, &local)?;
             let mut whole = mine.clone();
@@ -566,7 +551,7 @@ impl Work<'_> {
             }
             let uid = db::uid_of(self.connection, "annotation", near.id)?.unwrap_or_default();
             let key = ("annotation".to_owned(), uid);
-            if !self.came.contains(&key.1) && self.mine.touched.contains_key(&key) {
+            if !self.came.contains_key(&key.1) && self.mine.touched.contains_key(&key) {
                 return Ok(Some(near.id));
             }
         }
@@ -605,9 +590,11 @@ impl Work<'_> {
         if table == "recording" {
             self.recordings.insert(id);
             self.derive()?;
+            self.looked_at.remove(&id);
         }
         if db::is_referred_to(self.connection, table, id)? {
-            return Ok(false);
+            // A skeleton goes with the last track that has it.
+            return Ok(table == "skeleton");
         }
         db::delete_parts(self.connection, table, id)?;
         db::delete(self.connection, table, id)?;
@@ -650,6 +637,7 @@ impl Work<'_> {
             },
             from: self.from.clone(),
             decided: None,
+            came_back: mine.is_none() && self.back_again.contains(key),
         };
         keep(self.connection, &open)
     }

@@ -40,10 +40,14 @@ pub(super) fn merged(table: &str, base: &Image, mine: &Image, theirs: &Image) ->
         // The first columns of a group hold its value, the others its source.
         let length = if group[0] == "state" { 2 } else { 1 };
         let said = |values: &[Value]| values[..length].to_vec();
-        if same(&new, &old) || same(&own, &new) || same(&said(&new), &said(&own)) {
+        if same(&new, &old) || same(&own, &new) {
             continue;
         }
-        if same(&own, &old) || same(&said(&own), &said(&old)) {
+        let is_own = same(&own, &old);
+        if !is_own && same(&said(&new), &said(&own)) {
+            continue;
+        }
+        if is_own || same(&said(&own), &said(&old)) {
             for (column, value) in group.iter().zip(new) {
                 taken.insert((*column).to_owned(), value);
             }

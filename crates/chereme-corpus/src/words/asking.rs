@@ -203,8 +203,16 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "ce dont il fait partie ({what}) a été retiré ici",
     ),
     (
-        "undo the removal first, or decide for mine",
-        "annulez d’abord ce retrait, ou décidez pour le mien",
+        "add by hand what the other side has, or decide for mine",
+        "ajoutez à la main ce que l’autre côté a, ou décidez pour le mien",
+    ),
+    (
+        "after this decision the tiers would break a rule: {rule}",
+        "après cette décision, les acteurs enfreindraient une règle : {rule}",
+    ),
+    (
+        "decide the conflicts of that place together, change what is in the way first, or decide for mine",
+        "décidez ensemble les conflits de cet endroit, changez d’abord ce qui gêne, ou décidez pour le mien",
     ),
     (
         "the {what} holds more than the other side removed",

@@ -183,6 +183,42 @@ pub enum Violation {
     },
 }
 
+impl Violation {
+    /// Returns the annotations that break the rule, those that are named first; none if it is a rule of tiers.
+    #[must_use]
+    pub fn annotations(&self) -> Vec<AnnotationId> {
+        let named = |it: &Named| it.0;
+        let all = match self {
+            Self::Overlap {
+                annotation, other, ..
+            }
+            | Self::SecondAssociation {
+                annotation, other, ..
+            } => [named(annotation), Some(*other)],
+            Self::ZeroLength { annotation, .. } | Self::NotInVocabulary { annotation, .. } => {
+                [named(annotation), None]
+            }
+            Self::ParentOfRoot {
+                annotation, parent, ..
+            }
+            | Self::OutsideParent {
+                annotation, parent, ..
+            } => [Some(*annotation), Some(*parent)],
+            Self::MissingTier { annotation, .. }
+            | Self::MissingParent { annotation, .. }
+            | Self::Order { annotation, .. }
+            | Self::DerivedSpan { annotation, .. } => [Some(*annotation), None],
+            Self::Gap { parent, .. } => [Some(*parent), None],
+            Self::DuplicateName { .. }
+            | Self::MissingParentTier { .. }
+            | Self::ParentCycle { .. }
+            | Self::TooDeep { .. }
+            | Self::AlignableBelowSymbolic { .. } => [None, None],
+        };
+        all.into_iter().flatten().collect()
+    }
+}
+
 /// An annotation; `None` for one that was to be added and has no handle.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Named(pub Option<AnnotationId>);

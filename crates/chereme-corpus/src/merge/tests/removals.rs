@@ -1,0 +1,306 @@
+//! Tests of things that one copy removed and the other changed, and of tier rules, on recordings with movement.
+
+use std::fs;
+use std::path::PathBuf;
+
+use chereme_formats::table::annotations::Moment;
+use chereme_motion::Instant;
+use rusqlite::types::Value as Cell;
+
+use super::{Decision, MergeReport};
+use crate::{
+    Address, AnnotateOptions, AnnotationAction, AnnotationName, Corpus, DeleteOptions,
+    ImportOptions, Name, Progress, TierName, unheard,
+};
+
+/// Two copies of a corpus with two captured signs.
+struct Copies {
+    folder: tempfile::TempDir,
+    mine: Corpus,
+    theirs: Corpus,
+}
+
+impl Copies {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = |name: &str| folder.path().join(name);
+        let mut files: Vec<PathBuf> = Vec::new();
+        for (name, bytes) in crate::starter_files() {
+            let stem = name.file_stem().and_then(|it| it.to_str());
+            if stem.is_some_and(|it| ["chat", "bol"].contains(&it)) {
+                files.push(path(&name.to_string_lossy()));
+                fs::write(path(&name.to_string_lossy()), bytes).expect("written");
+            }
+        }
+        let mut corpus = Corpus::create(&path("base.chereme"), "A").expect("made");
+        let options = ImportOptions::default();
+        corpus
+            .import(&files, &options, &mut Progress::new(&mut unheard))
+            .expect("imported");
+        drop(corpus);
+        let open = |name: &str| {
+            fs::copy(path("base.chereme"), path(name)).expect("copied");
+            Corpus::open(&path(name), name).expect("opened")
+        };
+        let (mine, theirs) = (open("mine.chereme"), open("theirs.chereme"));
+        Self {
+            folder,
+            mine,
+            theirs,
+        }
+    }
+
+    fn merge(&mut self) -> MergeReport {
+        let other = self.folder.path().join("theirs.chereme");
+        let mut hear = unheard;
+        let report = self.mine.merge(&other, None, &mut Progress::new(&mut hear));
+        report.expect("merged")
+    }
+}
+
+/// Returns the rows of recordings: movement, tiers, annotations and values of tokens.
+fn rows(corpus: &Corpus) -> Vec<String> {
+    let mut all = Vec::new();
+    for sql in [
+        "SELECT name, notes FROM recording",
+        "SELECT r.name, t.kind, b.first_frame, hex(b.hash) FROM track t
+         JOIN recording r ON r.id = t.recording_id JOIN track_block b ON b.track_id = t.id",
+        "SELECT r.name, t.name, t.role, a.start_us, a.end_us, a.value, a.origin, p.value FROM annotation a
+         JOIN tier t ON t.id = a.tier_id JOIN recording r ON r.id = t.recording_id
+         LEFT JOIN annotation p ON p.id = a.parent_id",
+        "SELECT r.name, t.name FROM tier t JOIN recording r ON r.id = t.recording_id",
+        "SELECT r.name, f.kind FROM source_file f JOIN recording r ON r.id = f.recording_id",
+        "SELECT s.gloss, v.component, v.value FROM token k JOIN sign s ON s.id = k.sign_id
+         JOIN token_value v ON v.token_id = k.id",
+    ] {
+        let mut statement = corpus.store.read().prepare(sql).expect("a query");
+        let count = statement.column_count();
+        let found = statement.query_map([], |row| {
+            let cells = (0..count).map(|at| row.get::<_, Cell>(at));
+            Ok(format!("{:?}", cells.collect::<rusqlite::Result<Vec<_>>>()?))
+        });
+        all.extend(found.expect("rows").map(|row| row.expect("a row")));
+    }
+    all.sort();
+    all
+}
+
+fn annotation(corpus: &Corpus, recording: &str, value: &str) -> AnnotationName {
+    let sql = "SELECT a.id FROM annotation a JOIN tier t ON t.id = a.tier_id
+               JOIN recording r ON r.id = t.recording_id WHERE r.name = ?1 AND a.value = ?2";
+    let id = corpus
+        .store
+        .read()
+        .query_row(sql, [recording, value], |row| row.get(0));
+    AnnotationName::Number(id.expect("an annotation"))
+}
+
+fn act(corpus: &mut Corpus, action: AnnotationAction) {
+    let mut hear = unheard;
+    corpus
+        .annotate(
+            &[action.into()],
+            &AnnotateOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("annotated");
+}
+
+fn moment(millis: i64) -> Option<Moment> {
+    Some(Moment::Time(Instant::from_millis(millis)))
+}
+
+fn set(corpus: &mut Corpus, value: &str, new: Option<&str>, start: Option<i64>) {
+    let annotation = annotation(corpus, "bol", value);
+    let action = AnnotationAction::Set {
+        annotation,
+        start: start.and_then(moment),
+        end: None,
+        value: new.map(str::to_owned),
+    };
+    act(corpus, action);
+}
+
+fn add(corpus: &mut Corpus, tier: &str, value: &str, [start, end]: [i64; 2]) {
+    let sql = "SELECT t.id FROM tier t JOIN recording r ON r.id = t.recording_id
+               WHERE r.name = 'bol' AND t.name = ?1";
+    let id = corpus.store.read().query_row(sql, [tier], |row| row.get(0));
+    let action = AnnotationAction::Add {
+        tier: TierName::Number(id.expect("a tier")),
+        start: moment(start),
+        end: moment(end),
+        parent: None,
+        order: None,
+        value: value.into(),
+        confidence: None,
+    };
+    act(corpus, action);
+}
+
+fn delete_bol(corpus: &mut Corpus) {
+    let bol = [Address::Recording(Name::Text("bol".into()))];
+    let mut hear = unheard;
+    corpus
+        .delete(
+            &bol,
+            DeleteOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("deleted");
+}
+
+fn remove_tier(corpus: &mut Corpus, name: &str) {
+    let recording = Name::Text("bol".into());
+    corpus
+        .remove_tier(&TierName::Of {
+            recording,
+            tier: name.into(),
+        })
+        .expect("removed");
+}
+
+fn assert_whole(corpus: &mut Corpus) {
+    let mut hear = unheard;
+    let report = corpus.check(false, &mut Progress::new(&mut hear));
+    let faults = report.expect("checked").faults;
+    assert!(faults.is_empty(), "{faults:?}");
+}
+
+fn conflicts(corpus: &Corpus) -> Vec<(usize, String)> {
+    let all = corpus.conflicts(false).expect("listed").into_iter();
+    all.map(|it| (it.number, it.what)).collect()
+}
+
+type Act = fn(&mut Corpus);
+
+/// The removals of one copy, each with changes of the other copy in what is removed, and the kind of the conflict.
+fn cases() -> Vec<(Act, Act, &'static str)> {
+    let renamed: Act = |corpus| set(corpus, "BOL", Some("BOL2"), None);
+    let added: Act = |corpus| add(corpus, "Brows", "raised", [1160, 1250]);
+    let noted: Act = |corpus| {
+        let notes = crate::RecordingChange {
+            notes: Some(Some("seen".into())),
+            ..Default::default()
+        };
+        let bol = Name::Text("bol".into());
+        corpus.change_recording(&bol, &notes).expect("changed");
+    };
+    let without_brows: Act = |corpus| remove_tier(corpus, "Brows");
+    vec![
+        (delete_bol, renamed, "recording"),
+        (delete_bol, added, "recording"),
+        (delete_bol, noted, "recording"),
+        (without_brows, added, "tier"),
+    ]
+}
+
+#[test]
+fn a_thing_that_is_removed_there_and_changed_here_stays_whole_until_somebody_decides() {
+    for (removes, changes, what) in cases() {
+        let mut copies = Copies::new();
+        removes(&mut copies.theirs);
+        let without = rows(&copies.theirs);
+        changes(&mut copies.mine);
+        let before = rows(&copies.mine);
+        let report = copies.merge();
+        assert_eq!(rows(&copies.mine), before, "{what}");
+        assert_eq!(report.removed.len(), 0, "{report:?}");
+        assert_eq!(conflicts(&copies.mine), [(1, what.to_owned())]);
+        assert_whole(&mut copies.mine);
+        for (decision, after) in [
+            (Decision::Mine, &before),
+            (Decision::Both, &before),
+            (Decision::Theirs, &without),
+        ] {
+            copies.mine.decide(&[1], decision).expect("decided");
+            assert_eq!(&rows(&copies.mine), after, "{what} {decision:?}");
+            assert_whole(&mut copies.mine);
+            copies.mine.undo().expect("undone");
+            assert_eq!(rows(&copies.mine), before, "{what} {decision:?}");
+        }
+    }
+}
+
+#[test]
+fn a_thing_that_is_removed_here_and_changed_there_comes_back_whole_until_somebody_decides() {
+    for (removes, changes, what) in cases() {
+        let mut copies = Copies::new();
+        removes(&mut copies.mine);
+        let without = rows(&copies.mine);
+        changes(&mut copies.theirs);
+        let changed = rows(&copies.theirs);
+        copies.merge();
+        assert_eq!(rows(&copies.mine), changed, "{what}");
+        assert_eq!(conflicts(&copies.mine), [(1, what.to_owned())]);
+        assert_whole(&mut copies.mine);
+        for (decision, after) in [
+            (Decision::Mine, &without),
+            (Decision::Both, &changed),
+            (Decision::Theirs, &changed),
+        ] {
+            copies.mine.decide(&[1], decision).expect("decided");
+            assert_eq!(&rows(&copies.mine), after, "{what} {decision:?}");
+            assert_whole(&mut copies.mine);
+            copies.mine.undo().expect("undone");
+        }
+        let again = copies.merge();
+        assert_eq!(rows(&copies.mine), changed, "{what}");
+        assert_eq!(
+            (again.added.len(), again.removed.len()),
+            (0, 0),
+            "{again:?}"
+        );
+    }
+}
+
+#[test]
+fn a_thing_that_nobody_changed_is_removed_without_a_question() {
+    for (removes, ..) in cases() {
+        let mut copies = Copies::new();
+        removes(&mut copies.theirs);
+        let report = copies.merge();
+        assert_eq!(report.conflicts, []);
+        assert_eq!(rows(&copies.mine), rows(&copies.theirs));
+        assert_whole(&mut copies.mine);
+    }
+}
+
+#[test]
+fn a_change_that_would_break_a_tier_rule_waits_for_a_decision() {
+    let mut copies = Copies::new();
+    set(&mut copies.mine, "BOL", None, Some(1300));
+    let before = rows(&copies.mine);
+    add(&mut copies.theirs, "Brows", "raised", [1160, 1250]);
+    let report = copies.merge();
+    assert_eq!(report.conflicts.len(), 1, "{report:?}");
+    assert_eq!(rows(&copies.mine), before);
+    assert_whole(&mut copies.mine);
+    let refused = copies.mine.decide(&[1], Decision::Theirs);
+    let message = refused.expect_err("a broken rule").to_string();
+    assert!(message.contains("must lie inside"), "{message}");
+    assert_eq!(rows(&copies.mine), before);
+    set(&mut copies.mine, "BOL", None, Some(1150));
+    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    assert_whole(&mut copies.mine);
+    assert!(rows(&copies.mine).iter().any(|row| row.contains("1160000")));
+}
+
+#[test]
+fn the_origin_of_a_moved_annotation_is_merged_and_both_glosses_make_tokens() {
+    let mut copies = Copies::new();
+    set(&mut copies.theirs, "BOL", None, Some(1100));
+    copies.merge();
+    let moved = |row: &&String| row.contains("\"Gloss\"") && row.contains("\"BOL\"");
+    let rows_now = rows(&copies.mine);
+    let gloss: Vec<&String> = rows_now.iter().filter(moved).collect();
+    assert!(gloss.iter().any(|row| row.contains("human")), "{gloss:?}");
+
+    let mut copies = Copies::new();
+    set(&mut copies.mine, "BOL", Some("M"), None);
+    set(&mut copies.theirs, "BOL", Some("T"), None);
+    copies.merge();
+    copies.mine.decide(&[1], Decision::Both).expect("decided");
+    let found = copies.mine.search("gloss:T", &Default::default());
+    assert_eq!(found.expect("searched").hits.len(), 1);
+    assert_whole(&mut copies.mine);
+}
