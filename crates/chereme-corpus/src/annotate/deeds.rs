@@ -12,6 +12,8 @@ pub(super) struct Deeds {
     moved: BTreeSet<i64>,
     merged: BTreeSet<i64>,
     split: BTreeSet<i64>,
+    /// The number of merges, each of which removes an annotation.
+    merges: u64,
     /// Annotations that got a value, by the sentence for it and the value.
     valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,
     /// Whether anything else changed; the summary then counts added, changed and removed annotations instead.
@@ -25,6 +27,7 @@ impl Deeds {
 
     pub(super) fn merges(&mut self, first: i64, second: i64) {
         self.merged.extend([first, second]);
+        self.merges += 1;
     }
 
     pub(super) fn splits(&mut self, annotation: i64) {
@@ -46,7 +49,7 @@ impl Deeds {
 
     /// Returns the summary.
     pub(super) fn summary(&self, report: &AnnotateReport) -> String {
-        let named = self.named();
+        let named = self.named(report.removed);
         let what = if self.other || named.is_empty() {
             counts(report)
         } else {
@@ -59,7 +62,8 @@ impl Deeds {
         format!("{} in {place}", what.join(", "))
     }
 
-    fn named(&self) -> Vec<String> {
+    /// Returns the sentences; `removed` annotations were removed.
+    fn named(&self, removed: u64) -> Vec<String> {
         let say = |(one, several): (Text, Text), all: &BTreeSet<i64>, value: &str| {
             let text = if all.len() == 1 { one } else { several };
             let text = fill(text.en, &[("n", &all.len())]);
@@ -75,10 +79,15 @@ impl Deeds {
                 say((words::ONE_SAYS, words::SAY), &all.collect(), "")
             }
         };
+        // Annotations below a moved one that lie outside of it are removed with it.
+        let removed = removed.checked_sub(self.merges).filter(|count| *count > 0);
+        let removed = removed.filter(|_| !self.moved.is_empty());
+        let removed = removed.map(|count| format!("{count} removed"));
         let parts = [
             say((words::ONE_MOVED, words::MOVED), &self.moved, ""),
             say((words::MERGED, words::MERGED), &self.merged, ""),
             say((words::ONE_SPLIT, words::SPLIT), &self.split, ""),
+            removed,
             // A value may contain any text, including the separator of these parts.
             valued,
         ];

@@ -28,7 +28,7 @@ pub enum Find {
     Text(String),
     /// This text, and nothing else in the value.
     Whole(String),
-    /// Matches of a regular expression; `$1` in the replacement is its first group.
+    /// Matches of a regular expression; `$1` in the replacement is its first group, whatever follows.
     Pattern(Regex),
 }
 
@@ -51,6 +51,50 @@ impl Find {
                 .at(text)
                 .advise(advice())
         })
+    }
+
+    /// Returns the new text with each group that it names in braces, so that letters after a number do not belong to
+    /// the name.
+    ///
+    /// # Errors
+    /// Fails if the pattern has no group of that name.
+    fn expansion(&self, with: &str) -> Result<String> {
+        let Self::Pattern(pattern) = self else {
+            return Ok(with.to_owned());
+        };
+        let mut text = String::with_capacity(with.len());
+        let mut rest = with;
+        while let Some((before, after)) = rest.split_once('$') {
+            text.push_str(before);
+            let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            let digits = after.len() - after.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+            let word = after.find(|c| !is_word(c)).unwrap_or(after.len());
+            let (name, length) = match after.strip_prefix('{').and_then(|it| it.split_once('}')) {
+                _ if after.starts_with('$') => {
+                    text.push_str("$$");
+                    rest = &after[1..];
+                    continue;
+                }
+                Some((name, _)) => (name, name.len() + 2),
+                None if digits > 0 => (&after[..digits], digits),
+                None => (&after[..word], word),
+            };
+            let known = match name.parse::<usize>() {
+                Ok(group) => group < pattern.captures_len(),
+                Err(_) => pattern.capture_names().flatten().any(|it| it == name),
+            };
+            if !known {
+                return Err(Error::wrong(format!(
+                    "the new text names the group {name:?}, which the expression does not have"
+                ))
+                .at(with)
+                .advise("$1 is the first group in round brackets; a dollar sign is written $$"));
+            }
+            text.push_str(&format!("${{{name}}}"));
+            rest = &after[length..];
+        }
+        text.push_str(rest);
+        Ok(text)
     }
 
     /// Returns `value` with all matches replaced.
@@ -121,9 +165,10 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<Replaced> {
         let mut values = Vec::new();
+        let with = find.expansion(with)?;
         for (recording, tier) in tiers_within(self.store.read(), within)? {
             for row in rows::annotations(self.store.read(), tier.id)? {
-                let to = find.replaced(&row.value, with);
+                let to = find.replaced(&row.value, &with);
                 if row.state == ValueState::Value && to != row.value {
                     values.push(ReplacedValue {
                         annotation: row.id,

@@ -596,6 +596,41 @@ fn the_history_names_what_was_done() {
 }
 
 #[test]
+fn annotations_below_a_moved_one_follow_it_and_removed_ones_are_counted() {
+    let (_folder, mut corpus) = corpus();
+    annotate(&mut corpus, "add G 0-400 A; add I 10-60 a; add I 300-380 b").expect("added");
+    let before = shown(&corpus);
+    for (change, want, below) in [
+        (
+            "set 1 0-100",
+            "1 annotation moved, 1 removed in Take 1",
+            "a",
+        ),
+        ("set 1 1000-1390", "1 annotation moved in Take 1", "a b"),
+        (
+            "set 1 1000-1100",
+            "1 annotation moved, 1 removed in Take 1",
+            "a",
+        ),
+    ] {
+        annotate(&mut corpus, change).expect(change);
+        assert_eq!(corpus.log(1).expect("log")[0].summary, want, "{change}");
+        let left = ["a", "b"].into_iter().filter(|value| {
+            let said = format!(" {value}");
+            shown(&corpus).split("; ").any(|row| row.ends_with(&said))
+        });
+        assert_eq!(
+            left.collect::<Vec<_>>().join(" "),
+            below,
+            "{:?}",
+            shown(&corpus)
+        );
+        corpus.undo().expect("undone");
+        assert_eq!(shown(&corpus), before);
+    }
+}
+
+#[test]
 fn tables_are_applied_or_refused_row_by_row() {
     let good = "tier,start,end,value,action,id,parent\n\
                 G,0,1,BOL,,g1,\n\

@@ -205,6 +205,14 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "écrivez une expression régulière comme ^BO.* ; un simple texte se trouve sans --regex",
     ),
     (
+        "the new text names the group {name}, which the expression does not have",
+        "le nouveau texte nomme le groupe {name}, que l’expression n’a pas",
+    ),
+    (
+        "$1 is the first group in round brackets; a dollar sign is written $$",
+        "$1 est le premier groupe entre parenthèses ; un dollar s’écrit $$",
+    ),
+    (
         "{text} is no regular expression: {why}",
         "{text} n’est pas une expression régulière : {why}",
     ),

@@ -343,7 +343,7 @@ impl<'a> EditPlan<'a> {
         }
     }
 
-    /// Shifts aligned children with a parent that kept its length; clips them to the parent otherwise.
+    /// Shifts aligned children with a parent that kept its length or went elsewhere; clips them to the parent otherwise.
     fn fit_aligned(&mut self, old: Span, new: Span, how: Stereotype, children: &[&Annotation]) {
         if old.micros() == new.micros() {
             let by = new.start().micros().saturating_sub(old.start().micros());
@@ -352,11 +352,17 @@ impl<'a> EditPlan<'a> {
             }
             return;
         }
-        let (left, gone): (Vec<&Annotation>, Vec<&Annotation>) =
-            children.iter().partition(|child| child.span.overlaps(new));
+        let by = match old.overlaps(new) {
+            true => 0,
+            false => new.start().micros().saturating_sub(old.start().micros()),
+        };
+        let (left, gone): (Vec<&Annotation>, Vec<&Annotation>) = children
+            .iter()
+            .partition(|child| child.span.shifted(by).overlaps(new));
         let last = left.len().saturating_sub(1);
         for (place, child) in left.into_iter().enumerate() {
-            let clipped = child.span.intersection(new).unwrap_or(child.span);
+            let span = child.span.shifted(by);
+            let clipped = span.intersection(new).unwrap_or(span);
             let tiles = how == Stereotype::TimeSubdivision;
             let start = if tiles && place == 0 {
                 new.start()

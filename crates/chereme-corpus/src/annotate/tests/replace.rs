@@ -40,7 +40,7 @@ fn values_are_replaced_as_one_operation_and_a_dry_run_only_reports_it() {
     let text = |text: &str| Find::Text(text.to_owned());
     let pattern = |text: &str| Find::pattern(text).expect("a pattern");
     let operations = corpus.steps().expect("steps").0;
-    let cases: [(Find, &str, &[&str], &[&str]); 7] = [
+    let cases: [(Find, &str, &[&str], &[&str]); 9] = [
         (
             text("BOL"),
             "TASSE",
@@ -61,6 +61,8 @@ fn values_are_replaced_as_one_operation_and_a_dry_run_only_reports_it() {
             &["*"],
             &["G BOL-A>L-A", "G BOL>L", "H BOL>L"],
         ),
+        (pattern("^B(O)"), "$1OX$$", &["H"], &["H BOL>OOX$L"]),
+        (pattern("^(?<x>B)O"), "${x}_$x", &["H"], &["H BOL>B_BL"]),
         (pattern("-.$"), "", &[], &["G BOL-A>BOL"]),
         (text("chin"), "a $1", &["l"], &["L chin>a $1"]),
     ];
@@ -99,6 +101,12 @@ fn a_replacement_with_one_invalid_value_is_refused_whole() {
     let gone =
         replace(&mut corpus, &Find::Text("U".into()), "V", &["Q"], true).expect_err("no tier");
     assert!(gone.to_string().contains("no tier \"Q\""), "{gone}");
+    for with in ["$2", "$name", "${1", "$"] {
+        let find = Find::pattern("(U)").expect("a pattern");
+        let error = replace(&mut corpus, &find, with, &["G"], false).expect_err(with);
+        assert!(error.to_string().contains("names the group"), "{error}");
+        assert_eq!(shown(&corpus), before);
+    }
     let bad = Find::pattern("(").expect_err("no pattern");
     assert!(bad.remedy().is_some(), "{bad}");
 }
