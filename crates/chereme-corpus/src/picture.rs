@@ -42,8 +42,21 @@ pub(crate) use svg::write_svg;
 /// The height of a film in pixels, and its pictures per second.
 const FILM: usize = 540;
 const FILM_RATE: u32 = 25;
-/// The longest stretch that is drawn completely, in microseconds.
-const LONGEST: i64 = 120_000_000;
+/// The longest stretch that is drawn, in microseconds: all of its movement is in memory.
+const LONGEST: i64 = 1_200_000_000;
+
+/// Returns a span if all of it can be drawn.
+fn drawable(span: Span) -> Result<Span> {
+    if span.micros() <= LONGEST {
+        return Ok(span);
+    }
+    Err(Error::wrong(format!(
+        "the movement lasts {:.0} s, and at most {} s can be drawn at once",
+        span.seconds(),
+        LONGEST / 1_000_000
+    ))
+    .advise("name an annotation or a token of it, or store a part of it with a recipe: `| span 0s..600s`"))
+}
 
 /// The inventory name for the symbols of HamNoSys.
 const SYMBOLS: &str = "hamnosys";
@@ -235,8 +248,7 @@ impl Corpus {
                 return self.draw_notated(&notated, to, options, progress);
             }
         };
-        let from = stretch.span.start();
-        let span = Span::between(from, from.shifted(stretch.span.micros().min(LONGEST)));
+        let span = drawable(stretch.span)?;
         // A face from points on film is shown on the program's own body.
         let own = options.face && face::has_face(connection, stretch.recording.id)?;
         if !own
@@ -283,11 +295,7 @@ impl Corpus {
         }
         let mut all = Vec::with_capacity(addresses.len());
         for address in addresses {
-            let from = address::stretch(self.store.read(), address)?.span;
-            let span = Span::between(
-                from.start(),
-                from.start().shifted(from.micros().min(LONGEST)),
-            );
+            let span = drawable(address::stretch(self.store.read(), address)?.span)?;
             let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
             let captions = match options.captions {
                 true => self.captions(&moving.stretch)?,

@@ -3,6 +3,14 @@
 /// Messages and remedies in English and French; a form that is contained in another comes after it.
 pub(super) const CAPTURES: &[(&str, &str)] = &[
     (
+        "the movement lasts {n} s, and at most {most} s can be drawn at once",
+        "le mouvement dure {n} s, et on dessine au plus {most} s à la fois",
+    ),
+    (
+        "name an annotation or a token of it, or store a part of it with a recipe: {recipe}",
+        "nommez une annotation ou une occurrence de cet enregistrement, ou enregistrez-en une partie par une recette : {recipe}",
+    ),
+    (
         "the skeleton's own posture (bind pose)",
         "la posture propre du squelette (pose de liaison)",
     ),
