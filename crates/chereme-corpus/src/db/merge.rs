@@ -501,7 +501,7 @@ pub(crate) fn is_referred_to(connection: &Connection, table: &str, id: i64) -> R
 }
 
 /// The tables of rows that are a part of another row: the table, its column for the other row, and that row's table.
-const OWNED: [(&str, &str, &str); 14] = [
+const OWNED: [(&str, &str, &str); 15] = [
     ("source_file", "recording_id", "recording"),
     ("track", "recording_id", "recording"),
     ("channel", "track_id", "track"),
@@ -511,6 +511,7 @@ const OWNED: [(&str, &str, &str); 14] = [
     ("annotation", "parent_id", "annotation"),
     ("token", "recording_id", "recording"),
     ("token", "annotation_id", "annotation"),
+    ("token", "sign_id", "sign"),
     ("attribute", "token_id", "token"),
     ("notation", "token_id", "token"),
     ("recipe", "recording_id", "recording"),

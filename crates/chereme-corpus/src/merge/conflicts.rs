@@ -11,11 +11,11 @@ use sha2::{Digest, Sha256};
 
 use super::rules;
 use crate::Corpus;
-use crate::db::delete::delete_recording;
+use crate::db::delete::{cite_another, delete_recording};
 use crate::db::history::refers_to;
 use crate::db::merge::{self as db, Image, Side};
 use crate::db::tiers::{self, AnnotationRow, TierRow};
-use crate::db::{edits, recordings};
+use crate::db::{edits, recordings, signs};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
@@ -349,7 +349,12 @@ fn place(connection: &Connection, side: &Side<'_>, table: &str, row: &Image) -> 
         return Ok(format!("{}: {}", recording.name, tier.name));
     }
     let name = ["name", "gloss", "key", "text"].into_iter().find_map(text);
-    Ok(name.unwrap_or_default().to_owned())
+    let name = name.unwrap_or_default();
+    let above = text("recording_id").map(|uid| side.id("recording", uid));
+    Ok(match above.transpose()?.flatten() {
+        Some(above) => format!("{}: {name}", recordings::recording(connection, above)?.name),
+        None => name.to_owned(),
+    })
 }
 
 /// Returns the recording that a row belongs to; nothing if it belongs to no recording, or its recording was removed.
@@ -487,6 +492,13 @@ fn theirs(connection: &Connection, open: &Open) -> Result<()> {
                 });
             }
             db::update(connection, &open.table, id, &image)?;
+            let name = |image: Option<&Image>| image?.get("name")?.as_str().map(str::to_owned);
+            if open.table == "signer"
+                && let (Some(old), Some(new)) = (name(open.mine.as_ref()), name(Some(theirs)))
+                && old != new
+            {
+                edits::rename_participant(connection, &old, &new)?;
+            }
         }
         (Some(theirs), None) => {
             let image = local(&side, &open.table, theirs)?;
@@ -508,7 +520,15 @@ fn without(connection: &Connection, open: &Open) -> Result<()> {
 
 fn remove_whole(connection: &Connection, table: &str, id: i64) -> Result<()> {
     match table {
-        "recording" => return delete_recording(connection, id),
+        "recording" => {
+            let tokens = signs::tokens_of_recording(connection, id)?;
+            delete_recording(connection, id)?;
+            for token in tokens {
+                cite_another(connection, token.sign_id)?;
+                signs::delete_empty_sign(connection, token.sign_id)?;
+            }
+            return Ok(());
+        }
         "annotation" => return remove(connection, id),
         _ => {}
     }

@@ -134,6 +134,7 @@ impl Corpus {
                     came: BTreeMap::new(),
                     back_again: BTreeSet::new(),
                     roots: BTreeSet::new(),
+                    renamed: BTreeSet::new(),
                     signs: Vec::new(),
                 };
                 work.all(progress)?;
@@ -179,6 +180,8 @@ struct Work<'c> {
     back_again: BTreeSet<Key>,
     /// The topmost of these rows.
     roots: BTreeSet<Key>,
+    /// The names of signers whom both sides renamed: that of this side and that of the other. Their tiers follow.
+    renamed: BTreeSet<[String; 2]>,
     /// The signs that were added from the other side.
     signs: Vec<i64>,
 }
@@ -501,6 +504,7 @@ impl Work<'_> {
             Some(second) if first.1 && !second.1 => second,
             _ => first,
         };
+        let disagree = disagree && !self.only_renamed(table, bases, mine, theirs);
         let Some(local) = self.resolved(table, &taken)? else {
             return self.conflict(key, (Some(mine), Some(theirs)), None);
         };
@@ -534,6 +538,32 @@ impl Work<'_> {
             self.conflict(key, (Some(mine), Some(theirs)), None)?;
         }
         Ok(())
+    }
+
+    /// Returns whether both sides disagree about nothing but the name of a signer, which is a conflict of its own.
+    fn only_renamed(&mut self, table: &str, bases: &[Image], mine: &Image, theirs: &Image) -> bool {
+        let both = |column: &str| {
+            let text = |it: &Image| {
+                it.get(column)
+                    .and_then(Value::as_str)
+                    .unwrap_or_default()
+                    .to_owned()
+            };
+            [mine, theirs].map(text)
+        };
+        if table == "signer" && mine.get("name") != theirs.get("name") {
+            self.renamed.insert(both("name"));
+        }
+        let names = both("participant");
+        if table != "tier" || !self.renamed.contains(&names) {
+            return false;
+        }
+        let mut same = mine.clone();
+        let [_, name] = names;
+        same.insert("participant".to_owned(), Value::from(name));
+        bases
+            .iter()
+            .any(|base| !rows::merged(table, base, &same, theirs).1)
     }
 
     /// Returns the annotation created or changed on this side that a row of the other side would overlap.

@@ -121,7 +121,10 @@ impl Work<'_> {
             return Ok(false);
         };
         let parts = db::owned(self.theirs.connection, &key.0, id)?;
-        Ok(parts.iter().any(|(table, ..)| *table != "token"))
+        // Tokens of annotations follow from their tiers.
+        Ok(parts
+            .iter()
+            .any(|(table, ..)| key.0 == "sign" || *table != "token"))
     }
 }
 

@@ -13,7 +13,7 @@ use crate::{
     ImportOptions, Name, Progress, TierName, unheard,
 };
 
-/// Two copies of a corpus with two captured signs.
+/// Two copies of a corpus with two captured signs and a lexicon.
 struct Copies {
     folder: tempfile::TempDir,
     mine: Corpus,
@@ -27,7 +27,7 @@ impl Copies {
         let mut files: Vec<PathBuf> = Vec::new();
         for (name, bytes) in crate::starter_files() {
             let stem = name.file_stem().and_then(|it| it.to_str());
-            if stem.is_some_and(|it| ["chat", "bol"].contains(&it)) {
+            if stem.is_some_and(|it| ["chat", "bol", "lexicon"].contains(&it)) {
                 files.push(path(&name.to_string_lossy()));
                 fs::write(path(&name.to_string_lossy()), bytes).expect("written");
             }
@@ -63,6 +63,7 @@ fn rows(corpus: &Corpus) -> Vec<String> {
     let mut all = Vec::new();
     for sql in [
         "SELECT name, notes FROM recording",
+        "SELECT gloss, notes FROM sign",
         "SELECT r.name, t.kind, b.first_frame, hex(b.hash) FROM track t
          JOIN recording r ON r.id = t.recording_id JOIN track_block b ON b.track_id = t.id",
         "SELECT r.name, t.name, t.role, a.start_us, a.end_us, a.value, a.origin, p.value FROM annotation a
@@ -137,16 +138,16 @@ fn add(corpus: &mut Corpus, tier: &str, value: &str, [start, end]: [i64; 2]) {
     act(corpus, action);
 }
 
-fn delete_bol(corpus: &mut Corpus) {
-    let bol = [Address::Recording(Name::Text("bol".into()))];
+fn delete(corpus: &mut Corpus, address: Address) {
     let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
     corpus
-        .delete(
-            &bol,
-            DeleteOptions::default(),
-            &mut Progress::new(&mut hear),
-        )
+        .delete(&[address], DeleteOptions::default(), progress)
         .expect("deleted");
+}
+
+fn delete_bol(corpus: &mut Corpus) {
+    delete(corpus, Address::Recording(Name::Text("bol".into())));
 }
 
 fn remove_tier(corpus: &mut Corpus, name: &str) {
@@ -185,12 +186,27 @@ fn cases() -> Vec<(Act, Act, &'static str)> {
         let bol = Name::Text("bol".into());
         corpus.change_recording(&bol, &notes).expect("changed");
     };
+    let without_slug: Act = |corpus| delete(corpus, Address::Sign(Name::Text("LIMACE".into())));
+    let slug_noted: Act = |corpus| {
+        let notes = crate::SignChange {
+            notes: Some(Some("seen".into())),
+            ..Default::default()
+        };
+        let slug = Name::Text("LIMACE".into());
+        corpus.change_sign(&slug, &notes).expect("changed");
+    };
+    let without_gloss: Act = |corpus| {
+        let annotation = annotation(corpus, "bol", "BOL");
+        act(corpus, AnnotationAction::Remove { annotation });
+    };
     let without_brows: Act = |corpus| remove_tier(corpus, "Brows");
     vec![
         (delete_bol, renamed, "recording"),
         (delete_bol, added, "recording"),
         (delete_bol, noted, "recording"),
         (without_brows, added, "tier"),
+        (without_gloss, added, "annotation"),
+        (without_slug, slug_noted, "sign"),
     ]
 }
 
@@ -302,5 +318,32 @@ fn the_origin_of_a_moved_annotation_is_merged_and_both_glosses_make_tokens() {
     copies.mine.decide(&[1], Decision::Both).expect("decided");
     let found = copies.mine.search("gloss:T", &Default::default());
     assert_eq!(found.expect("searched").hits.len(), 1);
+    assert_whole(&mut copies.mine);
+}
+
+#[test]
+fn a_signer_whom_both_renamed_is_one_conflict() {
+    let mut copies = Copies::new();
+    let rename = |corpus: &mut Corpus, name: &str| {
+        let change = crate::SignerChange {
+            name: Some(name.to_owned()),
+            ..Default::default()
+        };
+        let signer = Name::Text("Camille (made)".into());
+        corpus.change_signer(&signer, &change).expect("changed");
+    };
+    let participants = |corpus: &Corpus, name: &str| -> i64 {
+        let sql = "SELECT count(*) FROM tier WHERE participant = ?1";
+        let count = corpus.store.read().query_row(sql, [name], |row| row.get(0));
+        count.expect("a number")
+    };
+    let all = participants(&copies.mine, "Camille (made)");
+    rename(&mut copies.mine, "Mina");
+    rename(&mut copies.theirs, "Thea");
+    copies.merge();
+    assert_eq!(conflicts(&copies.mine), [(1, "signer".to_owned())]);
+    assert_eq!(participants(&copies.mine, "Mina"), all);
+    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    assert_eq!(participants(&copies.mine, "Thea"), all);
     assert_whole(&mut copies.mine);
 }
