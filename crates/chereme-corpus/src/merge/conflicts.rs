@@ -1,5 +1,6 @@
 //! Conflicts of a merge: both candidates are kept, listed, and decided one by one.
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::Instant;
@@ -409,8 +410,8 @@ impl Corpus {
                         .advise(Remedy::command("`chereme conflicts CORPUS` lists them"))
                 })?;
                 for recording in recordings_of(connection, &open)? {
-                    if !known.contains_key(&recording) {
-                        known.insert(recording, rules::broken(connection, recording)?);
+                    if let Entry::Vacant(free) = known.entry(recording) {
+                        free.insert(rules::broken(connection, recording)?);
                     }
                 }
                 let done = match decision {
