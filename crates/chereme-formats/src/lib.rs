@@ -1,10 +1,12 @@
 //! Reads and writes foreign files: translates them to the models of movement and signs, and back.
 
+pub mod anvil;
 pub mod bvh;
 pub mod c3d;
 pub mod compare;
 pub mod curves;
 pub mod eaf;
+pub mod exmaralda;
 pub mod faces;
 #[cfg(feature = "fbx")]
 pub mod fbx;
@@ -16,12 +18,14 @@ mod golden;
 pub mod hns;
 pub mod keypoints;
 pub mod lexicon;
+mod markup;
 pub mod mp4;
 pub mod pose;
 mod reach;
 pub mod roles;
 mod scene;
 pub mod sigml;
+pub mod signstream;
 pub mod subtitles;
 pub mod table;
 mod tally;
@@ -33,5 +37,6 @@ pub mod tracks;
 pub mod trc;
 
 pub use finding::{Finding, Mend, Severity};
+pub use markup::Error as MarkupError;
 pub use reach::TooFar;
 pub use scene::Scene;

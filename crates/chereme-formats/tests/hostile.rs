@@ -7,7 +7,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use chereme_formats::bvh::raw::{Block, Reader};
 use chereme_formats::roles::Mapping;
 use chereme_formats::{
-    c3d, curves, eaf, gltf, hns, keypoints, lexicon, pose, sigml, subtitles, table, textgrid, trc,
+    anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, pose, sigml, signstream,
+    subtitles, table, textgrid, trc,
 };
 use chereme_motion::{
     Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
@@ -62,6 +63,22 @@ const PFSX: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <preferences version="1.1"><prefGroup key="TierColors"><pref key="Gloss"><Object class="java.awt.Color">0,160,255</Object></pref></prefGroup>
 <prefList key="MultiTierViewer.TierOrder"><String>B</String><String>A</String></prefList></preferences>
 "#;
+
+const ANVIL: &str = r#"<annotation><head><specification src="s.xml"/><video src="a.mov"/><info key="coder">Z</info></head><body>
+<track name="a.b" type="primary"><el index="0" start="0.5" end="1"><attribute name="x">1</attribute><attribute name="y">2</attribute></el>
+<el index="1" start="1" end="2"><attribute name="x">1</attribute><comment>c</comment></el></track>
+<track name="s" type="singleton" ref="a.b"><el index="0" ref="1"><attribute name="v"><value-link ref-track="a.b" ref-index="0"/></attribute></el></track>
+<track name="r" type="span" ref="a.b"><el index="0" start="0" end="1"/></track><track name="p" type="primarypoint"><el index="0" time="3"/></track>
+<track name="d" type="subdivision" ref="a.b"><el-group ref="0"><el index="0"/><el index="1" start="0.7"/></el-group></track>
+<set name="z"><el/></set></body></annotation>"#;
+const EXB: &str = r#"<basic-transcription><head><meta-information><referenced-file url="a.wav"/></meta-information><speakertable><speaker id="S">
+<abbreviation>A</abbreviation></speaker></speakertable></head><basic-body><common-timeline><tli id="T0" time="0"/><tli id="T1"/><tli id="T2" time="2"/>
+</common-timeline><tier id="t" speaker="S" category="v" type="t"><event start="T0" end="T1">x</event><event start="T1" end="T2">y &amp; z</event></tier>
+</basic-body></basic-transcription>"#;
+const SIGNSTREAM: &str = r#"<SIGNSTREAM-DATABASE><PARTICIPANTS><PARTICIPANT ID="0" NAME="B"/></PARTICIPANTS><CODING-SCHEME><FIELD ID="1" NAME="gloss">
+<VALUE ID="2" NAME="v"/></FIELD></CODING-SCHEME><MEDIA-FILES><MEDIA-FILE ID="1" LEGACY-PATH="a.mov"/></MEDIA-FILES><UTTERANCES><UTTERANCE ID="3"
+S="666" E="3333"><MEDIA-REF ID="1"/><SEGMENT PARTICIPANT-ID="0"><TRACK FID="1"><A S="0" E="9" VID="2"/><A S="10" E="20">X</A></TRACK></SEGMENT>
+</UTTERANCE></UTTERANCES></SIGNSTREAM-DATABASE>"#;
 
 const TEXT_GRID: &str = "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\nxmin = 0\nxmax = 2\ntiers? <exists>\nsize = 2\nitem \
 []:\n item [1]:\n class = \"IntervalTier\"\n name = \"gloss\"\n xmin = 0\n xmax = 2\n intervals: size = 2\n intervals [1]:\n xmin = 0\n \
@@ -195,6 +212,11 @@ fn formats() -> Vec<Format> {
         format("eaf", EAF, |bytes| eaf::read(bytes).is_ok()),
         format("ecv", ECV, |bytes| eaf::read_vocabularies(bytes).is_ok()),
         format("pfsx", PFSX, |bytes| eaf::settings::read(bytes).is_ok()),
+        format("anvil", ANVIL, |bytes| anvil::read(bytes).is_ok()),
+        format("exmaralda", EXB, |bytes| exmaralda::read(bytes).is_ok()),
+        format("signstream", SIGNSTREAM, |bytes| {
+            signstream::read(bytes).is_ok()
+        }),
         format("textgrid", TEXT_GRID, |bytes| textgrid::read(bytes).is_ok()),
         format("textgrid, binary", binary_text_grid(), |bytes| {
             textgrid::read(bytes).is_ok()

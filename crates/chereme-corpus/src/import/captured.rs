@@ -113,7 +113,7 @@ fn is_export_of_signs(head: &[u8]) -> bool {
 }
 
 /// Returns the first bytes of a file.
-fn head(path: &Path) -> Result<Vec<u8>> {
+pub(super) fn head(path: &Path) -> Result<Vec<u8>> {
     let fault = |error| Error::file(path, error);
     let mut head = Vec::new();
     let file = File::open(path).map_err(fault)?;

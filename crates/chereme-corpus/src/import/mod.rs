@@ -22,6 +22,7 @@ mod report;
 mod tests;
 mod tracks;
 mod understood;
+mod unread;
 mod whole;
 
 use std::collections::{BTreeMap, BTreeSet};

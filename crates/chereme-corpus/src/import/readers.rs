@@ -1,16 +1,19 @@
-//! The kinds of files that an import recognises: those that it reads, and those that it can only name.
+//! The kinds of files that an import reads. Those that it can only name are in `unread.rs`.
 //!
 //! To add a format, write a reading function in `chereme-formats` and add an entry to [`READERS`].
 
-use std::borrow::Cow;
 use std::fmt::Display;
 use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
 use chereme_formats::tracks::Tracks;
-use chereme_formats::{Finding, c3d, eaf as elan_file, pose, subtitles, textgrid, trc};
+use chereme_formats::{
+    Finding, anvil, c3d, eaf as elan_file, exmaralda, pose, signstream, subtitles, textgrid, trc,
+};
 use chereme_sign::Remedy;
 
+use super::unread::begins;
+pub(super) use super::unread::unread;
 use super::{FileReport, Job, bvh, captured, eaf, elan, film, notated};
 use crate::error::{Error, Result};
 use crate::notation::Form;
@@ -210,6 +213,30 @@ pub(super) static READERS: &[Reader] = &[
         contents: Contents::Annotations(|bytes| subtitles::read(bytes).map_err(said)),
     },
     Reader {
+        endings: &["anvil"],
+        kind: "anvil",
+        holds: ANNOTATIONS,
+        looks: always,
+        keeps_inventories: false,
+        contents: Contents::Annotations(|bytes| anvil::read(bytes).map_err(said)),
+    },
+    Reader {
+        endings: &["exb"],
+        kind: "exmaralda",
+        holds: ANNOTATIONS,
+        looks: always,
+        keeps_inventories: false,
+        contents: Contents::Annotations(|bytes| exmaralda::read(bytes).map_err(said)),
+    },
+    Reader {
+        endings: &["xml"],
+        kind: "signstream",
+        holds: Text::new("collections of SignStream", "collections de SignStream"),
+        looks: |path| begins(path, "<SIGNSTREAM-DATABASE"),
+        keeps_inventories: false,
+        contents: Contents::Annotations(|bytes| signstream::read(bytes).map_err(said)),
+    },
+    Reader {
         endings: &["ecv"],
         kind: "ecv",
         holds: Text::new("vocabularies of ELAN", "vocabulaires d’ELAN"),
@@ -264,57 +291,6 @@ fn eaf_transcript(bytes: &[u8]) -> std::result::Result<(Transcript, Vec<Finding>
     elan_file::read(bytes).map_err(said)
 }
 
-/// A kind of file that often accompanies readable files but is not read.
-struct Unread {
-    endings: &'static [&'static str],
-    /// A noun for such files.
-    what: &'static str,
-    /// A step that makes its contents readable.
-    remedy: Remedy,
-}
-
-const MEDIA: Remedy = Remedy::Advice(Cow::Borrowed(
-    "import the .eaf that names it; its recording is linked to it then",
-));
-
-static UNREAD: &[Unread] = &[
-    Unread {
-        endings: &["txt"],
-        what: "text without HamNoSys",
-        remedy: Remedy::Advice(Cow::Borrowed(
-            "a .txt holds HamNoSys, a sign a line: the gloss, a tab, and symbols or their names",
-        )),
-    },
-    Unread {
-        endings: &["xml"],
-        what: "XML without SiGML",
-        remedy: Remedy::Advice(Cow::Borrowed("an .xml holds SiGML: its root is <sigml>")),
-    },
-    #[cfg(not(feature = "fbx"))]
-    Unread {
-        endings: &["fbx"],
-        what: "movement in a form that this build of the program does not read",
-        remedy: Remedy::Advice(Cow::Borrowed("open it in Blender and export .glb or .bvh")),
-    },
-    Unread {
-        endings: &["wav", "mp3"],
-        what: "sound",
-        remedy: MEDIA,
-    },
-    Unread {
-        endings: &["png", "jpg", "jpeg", "gif"],
-        what: "pictures",
-        remedy: MEDIA,
-    },
-    Unread {
-        endings: &["chereme"],
-        what: "a corpus",
-        remedy: Remedy::Command(Cow::Borrowed(
-            "merge it into yours: `chereme merge CORPUS OTHER`; or export its files, and import those",
-        )),
-    },
-];
-
 /// Returns the index in [`READERS`] of a file's kind, if files of that kind are read.
 pub(super) fn reader(path: &Path) -> Option<usize> {
     let ending = ending(path)?;
@@ -326,24 +302,6 @@ pub(super) fn reader(path: &Path) -> Option<usize> {
 /// Returns the ending of a file's name in lower case, without the dot.
 pub(super) fn ending(path: &Path) -> Option<String> {
     Some(path.extension()?.to_string_lossy().to_lowercase())
-}
-
-/// Returns the error for a file of a kind that is not read, with a way to make its contents readable.
-pub(super) fn unread(path: &Path) -> Error {
-    let ending = ending(path).unwrap_or_default();
-    let known = UNREAD
-        .iter()
-        .find(|it| it.endings.contains(&ending.as_str()));
-    let (message, remedy) = match known {
-        Some(known) => (format!("it holds {}", known.what), known.remedy.clone()),
-        None => (
-            "this kind of file is not known".to_owned(),
-            format!("files that are read end in {}", endings(Language::English)).into(),
-        ),
-    };
-    Error::wrong(message)
-        .at(path.display().to_string())
-        .advise(remedy)
 }
 
 /// Returns the reason to leave out a file of a folder that `chereme export all` wrote, if the database in that folder
@@ -421,6 +379,9 @@ mod tests {
     #[test]
     fn every_extension_has_one_kind_and_annotations_are_read_after_movement() {
         let mut all: Vec<&str> = READERS.iter().flat_map(|it| it.endings).copied().collect();
+        // The root element of an .xml determines its kind.
+        let first = all.iter().position(|ending| *ending == "xml");
+        all.remove(first.expect("an ending"));
         let many = all.len();
         all.sort_unstable();
         all.dedup();
@@ -439,6 +400,8 @@ mod tests {
             ("a.etf", true),
             ("a.TextGrid", true),
             ("a.vtt", true),
+            ("a.anvil", true),
+            ("A.EXB", true),
             ("a.bvh", false),
             ("a.docx", false),
         ] {
@@ -456,6 +419,8 @@ mod tests {
     #[test]
     fn unreadable_files_are_named_with_a_remedy() {
         for (name, said) in [
+            ("a.cha", "CHAT"),
+            ("a.Collection", "Praat"),
             ("a.wav", "sound"),
             ("a.docx", "not known"),
             ("noending", "not known"),

@@ -3,6 +3,7 @@
 mod again;
 mod captured;
 mod film;
+mod foreign;
 mod lexicon;
 mod reading;
 mod renamed;

@@ -547,10 +547,6 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "un .txt contient du HamNoSys, un signe par ligne : la glose, une tabulation, et des symboles ou leurs noms",
     ),
     (
-        "an .xml holds SiGML: its root is <sigml>",
-        "un .xml contient du SiGML : sa racine est <sigml>",
-    ),
-    (
         "movement in a form that this build of the program does not read",
         "un mouvement sous une forme que ce programme, tel que compilé, ne lit pas",
     ),

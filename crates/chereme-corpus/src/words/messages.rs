@@ -20,6 +20,7 @@ use super::documents::DOCUMENTS;
 use super::editing::EDITING;
 use super::filming::FILMING;
 use super::findings::FINDINGS;
+use super::foreign::FOREIGN;
 use super::importing::IMPORTING;
 use super::lines::{GENERAL, LINES};
 use super::moving::MOVING;
@@ -532,6 +533,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(PUBLISHING)
         .chain(REPORTS)
         .chain(CAPTURES)
+        .chain(FOREIGN)
         .chain(DOCUMENTS)
         .chain(ASKING)
         .chain(LINES);

@@ -35,6 +35,7 @@ mod documents;
 mod editing;
 mod filming;
 mod findings;
+mod foreign;
 mod guides;
 pub mod history;
 mod importing;

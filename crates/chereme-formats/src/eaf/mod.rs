@@ -29,7 +29,7 @@ mod patch;
 mod read;
 mod style;
 mod write;
-mod xml;
+pub(crate) mod xml;
 
 pub mod convert;
 pub mod raw;

@@ -30,7 +30,7 @@ pub type Kept<'a> = Option<Box<Unknown<'a>>>;
 /// The byte at which an element starts in the text of the file; [`Document::line`] gives its line. It is
 /// ignored in comparisons.
 #[derive(Debug, Clone, Copy)]
-pub struct At(pub(super) u32);
+pub struct At(pub(crate) u32);
 
 impl Default for At {
     /// Returns the position of an element that is not from a file.

@@ -1,4 +1,5 @@
-//! A cursor over the elements of a hostile XML text, built on quick-xml's pull parser.
+//! A cursor over the elements of a hostile XML text, built on quick-xml's pull parser. Other annotation files in XML are
+//! read with it, too.
 
 use super::encoding::is_known;
 use super::error::Error;
@@ -14,13 +15,15 @@ use std::borrow::Cow;
 const DEPTH: usize = 64;
 /// The most attributes of one element; EAF needs 10.
 const ATTRIBUTES: usize = 64;
+/// The most elements within one text that are reported.
+const INNER: usize = 1 << 16;
 /// The longest text that is read, in bytes.
 pub(super) const BYTES: usize = 1 << 30;
 
 /// The start tag of an element.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Tag<'a> {
-    pub(super) name: &'a str,
+pub(crate) struct Tag<'a> {
+    pub(crate) name: &'a str,
     attributes: &'a str,
     empty: bool,
     start: usize,
@@ -29,12 +32,12 @@ pub(super) struct Tag<'a> {
 
 impl<'a> Tag<'a> {
     /// Returns the line of the tag, counted from 1; counting takes time.
-    pub(super) fn line(&self) -> u64 {
+    pub(crate) fn line(&self) -> u64 {
         line_of(self.text.as_bytes(), self.start)
     }
 
     /// Returns the position of the tag.
-    pub(super) fn at(&self) -> At {
+    pub(crate) fn at(&self) -> At {
         At(u32::try_from(self.start).unwrap_or(u32::MAX))
     }
 
@@ -45,16 +48,18 @@ impl<'a> Tag<'a> {
 }
 
 /// Walks through the elements of a text.
-pub(super) struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     text: &'a str,
     reader: Reader<&'a [u8]>,
     open: Vec<&'a str>,
-    pub(super) findings: Findings,
+    pub(crate) findings: Findings,
+    /// Whether a document type is passed over with a finding if it only names another file.
+    names_type: bool,
 }
 
 impl<'a> Cursor<'a> {
     /// Returns a cursor before the root element of `bytes`.
-    pub(super) fn new(bytes: &'a [u8]) -> Result<Self, Error> {
+    pub(crate) fn new(bytes: &'a [u8]) -> Result<Self, Error> {
         let text = decode(bytes)?;
         if let Some(at) = control_character(text.as_bytes()) {
             return Err(Error::NotXml {
@@ -71,11 +76,20 @@ impl<'a> Cursor<'a> {
             reader,
             open: Vec::new(),
             findings: Findings::default(),
+            names_type: false,
+        })
+    }
+
+    /// Returns a cursor that passes over a document type without declarations of its own.
+    pub(crate) fn new_with_type(bytes: &'a [u8]) -> Result<Self, Error> {
+        Ok(Self {
+            names_type: true,
+            ..Self::new(bytes)?
         })
     }
 
     /// Returns the root element, which has to be `expected`.
-    pub(super) fn root(&mut self, expected: &'static str) -> Result<Tag<'a>, Error> {
+    pub(crate) fn root(&mut self, expected: &'static str) -> Result<Tag<'a>, Error> {
         loop {
             match self.event()? {
                 Event::Decl(decl) => {
@@ -118,7 +132,7 @@ impl<'a> Cursor<'a> {
 
     /// Returns the next child of `parent`; `None` at its end. Each child must be read to its own end
     /// first.
-    pub(super) fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
+    pub(crate) fn child(&mut self, parent: &Tag<'a>) -> Result<Option<Tag<'a>>, Error> {
         if parent.empty {
             return Ok(None);
         }
@@ -148,17 +162,32 @@ impl<'a> Cursor<'a> {
     }
 
     /// Returns the text of `tag` and moves to its end.
-    pub(super) fn text(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+    pub(crate) fn text(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+        let mut inner = Vec::new();
+        let text = self.text_and_elements(tag, &mut inner)?;
+        for inner in inner {
+            self.unexpected(&inner, tag);
+        }
+        Ok(text)
+    }
+
+    /// Returns the text of `tag` without the elements in it, adds the first [`INNER`] of those to `inner`, and moves to
+    /// its end.
+    pub(crate) fn text_and_elements(
+        &mut self,
+        tag: &Tag<'a>,
+        inner: &mut Vec<Tag<'a>>,
+    ) -> Result<Cow<'a, str>, Error> {
         if tag.empty {
             return Ok(Cow::Borrowed(""));
         }
         self.reader.config_mut().trim_text_start = false;
-        let text = self.pieces(tag);
+        let text = self.pieces(inner);
         self.reader.config_mut().trim_text_start = true;
         text
     }
 
-    fn pieces(&mut self, tag: &Tag<'a>) -> Result<Cow<'a, str>, Error> {
+    fn pieces(&mut self, into: &mut Vec<Tag<'a>>) -> Result<Cow<'a, str>, Error> {
         let mut whole: Cow<'a, str> = Cow::Borrowed("");
         loop {
             match self.event()? {
@@ -180,13 +209,17 @@ impl<'a> Cursor<'a> {
                 Event::Eof => return Err(self.truncated()),
                 Event::Start(inner) => {
                     let inner = self.tag(inner.name().0.len(), inner.len(), false)?;
-                    self.unexpected(&inner, tag);
+                    if into.len() < INNER {
+                        into.push(inner);
+                    }
                     self.skip(&inner)?;
                     self.reader.config_mut().trim_text_start = false;
                 }
                 Event::Empty(inner) => {
                     let inner = self.tag(inner.name().0.len(), inner.len(), true)?;
-                    self.unexpected(&inner, tag);
+                    if into.len() < INNER {
+                        into.push(inner);
+                    }
                 }
                 Event::Decl(_) | Event::DocType(_) => {}
             }
@@ -203,7 +236,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Moves to the end of `tag` and returns its source text, including its tags.
-    pub(super) fn skip(&mut self, tag: &Tag<'a>) -> Result<&'a str, Error> {
+    pub(crate) fn skip(&mut self, tag: &Tag<'a>) -> Result<&'a str, Error> {
         self.reader.config_mut().trim_text_start = true;
         let depth = self.open.len();
         while !tag.empty && self.open.len() >= depth {
@@ -220,7 +253,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Checks that nothing but comments and blanks follows the root element.
-    pub(super) fn finish(&mut self) -> Result<(), Error> {
+    pub(crate) fn finish(&mut self) -> Result<(), Error> {
         loop {
             match self.event()? {
                 Event::Eof => return Ok(()),
@@ -236,7 +269,7 @@ impl<'a> Cursor<'a> {
     }
 
     /// Passes every attribute of `tag` to `take`, with references resolved.
-    pub(super) fn attributes(
+    pub(crate) fn attributes(
         &mut self,
         tag: &Tag<'a>,
         mut take: impl FnMut(&'a str, Cow<'a, str>),
@@ -326,10 +359,19 @@ impl<'a> Cursor<'a> {
 
     #[inline]
     fn event(&mut self) -> Result<Event<'a>, Error> {
-        match self.reader.read_event() {
-            Ok(Event::DocType(_)) => Err(Error::Doctype { line: self.here() }),
-            Ok(event) => Ok(event),
-            Err(error) => Err(self.broken(&error)),
+        loop {
+            return match self.reader.read_event() {
+                Ok(Event::DocType(text)) if self.names_type && !text.contains('[') => {
+                    self.find("document types", |line| {
+                        let message = "a document type is named; it is not fetched, and not kept";
+                        Finding::note(line, message)
+                    });
+                    continue;
+                }
+                Ok(Event::DocType(_)) => Err(Error::Doctype { line: self.here() }),
+                Ok(event) => Ok(event),
+                Err(error) => Err(self.broken(&error)),
+            };
         }
     }
 
@@ -569,6 +611,6 @@ fn control_character(bytes: &[u8]) -> Option<usize> {
         .map(|at| chunk * 4096 + at)
 }
 
-pub(super) fn line_of(bytes: &[u8], at: usize) -> u64 {
+pub(crate) fn line_of(bytes: &[u8], at: usize) -> u64 {
     memchr::memchr_iter(b'\n', &bytes[..at.min(bytes.len())]).count() as u64 + 1
 }

@@ -10,11 +10,14 @@ pub use chereme_sign::Hands;
 pub use mapping::{Mapping, MappingError, Target};
 pub(crate) use words::normal;
 
+use crate::anvil;
 use crate::eaf::Transcript;
+use crate::eaf::convert::Tier;
+use crate::textgrid::POINTS;
 use chereme_sign::text::fold;
 use chereme_sign::{Component, HandRef, Stereotype, TierRole, TierTopic};
 use serde::Serialize;
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use words::{Match, TABLE};
 
 /// The properties of a tier that its role is inferred from.
@@ -29,6 +32,10 @@ pub struct TierName<'a> {
     /// Whether each of its annotations belongs to one of the tier above, with its time (ELAN's
     /// Symbolic_Association).
     pub one_to_one: bool,
+    /// Whether its annotations have no values of their own, only those of the tiers below it.
+    pub is_track: bool,
+    /// The part of the name that states the role, if the rest is the name of the tier above.
+    pub subject: Option<&'a str>,
 }
 
 /// The inferred role of a tier.
@@ -59,13 +66,55 @@ impl TierGuess {
 /// Returns the inferred role of each tier of a transcript; see [`guess_roles`].
 #[must_use]
 pub fn guess_tiers(transcript: &Transcript, mapping: &Mapping) -> Vec<TierGuess> {
-    let names = transcript.tiers.iter().map(|tier| TierName {
-        name: &tier.name,
-        kind: &tier.kind,
-        parent: tier.parent,
-        one_to_one: tier.stereotype == Some(Stereotype::SymbolicAssociation),
-    });
+    let tracks = tracks(transcript);
+    let names = transcript
+        .tiers
+        .iter()
+        .enumerate()
+        .map(|(at, tier)| TierName {
+            name: &tier.name,
+            kind: &tier.kind,
+            parent: tier.parent,
+            one_to_one: tier.stereotype == Some(Stereotype::SymbolicAssociation),
+            is_track: tracks.contains(&at),
+            subject: subject(tier, transcript, &tracks),
+        });
     guess_roles(&names.collect::<Vec<_>>(), mapping)
+}
+
+/// Returns the tiers that hold the elements of ANVIL's tracks, whose attributes have tiers of their own.
+fn tracks(transcript: &Transcript) -> BTreeSet<usize> {
+    let tiers = &transcript.tiers;
+    let child = |tier: &Tier| {
+        tier.parent
+            .filter(|above| is_attribute(tier, *above, tiers))
+    };
+    let above: BTreeSet<usize> = tiers.iter().filter_map(child).collect();
+    let is_track = |at: &usize| {
+        tiers[*at].kind == anvil::ELEMENTS
+            || tiers[*at].annotations.iter().all(|it| it.value.is_empty())
+    };
+    above.into_iter().filter(is_track).collect()
+}
+
+/// Returns whether a tier is named as that of an attribute below the tier of a track.
+fn is_attribute(tier: &Tier, above: usize, tiers: &[Tier]) -> bool {
+    let Some(above) = tiers.get(above) else {
+        return false;
+    };
+    let own = tier.name.strip_prefix(&above.name);
+    let is_track = above.kind == anvil::ELEMENTS || above.kind == POINTS;
+    is_track && own.and_then(|own| own.strip_prefix('.')) == Some(&*tier.kind)
+}
+
+/// Returns the name of the attribute whose values a tier holds.
+fn subject<'t>(
+    tier: &'t Tier,
+    transcript: &Transcript,
+    tracks: &BTreeSet<usize>,
+) -> Option<&'t str> {
+    let above = tier.parent.filter(|above| tracks.contains(above))?;
+    is_attribute(tier, above, &transcript.tiers).then_some(&*tier.kind)
 }
 
 /// Returns the inferred role of each tier, in the same order.
@@ -83,6 +132,7 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         .iter()
         .map(|tier| guess(tier, mapping, &context))
         .collect();
+    share(tiers, &mut guesses);
     let mut second_readings = BTreeSet::new();
     for (at, tier) in tiers.iter().enumerate() {
         let above = tier.parent.filter(|above| tier.one_to_one && *above != at);
@@ -118,6 +168,48 @@ pub fn guess_roles(tiers: &[TierName<'_>], mapping: &Mapping) -> Vec<TierGuess> 
         }
     }
     guesses
+}
+
+/// Gives the role of a track to its first attribute, unless an attribute names that role itself; a track has no values.
+/// Further attributes that name glosses of the same hand are second readings.
+fn share(tiers: &[TierName<'_>], guesses: &mut [TierGuess]) {
+    let mut attributes: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
+    for (at, tier) in tiers.iter().enumerate() {
+        if let Some(above) = tier.parent.filter(|_| tier.subject.is_some()) {
+            attributes.entry(above).or_default().push(at);
+        }
+    }
+    for (track, attributes) in attributes {
+        let mut hands = Vec::new();
+        for &at in &attributes {
+            let guess = &mut guesses[at];
+            if guess.role == Some(TierRole::Gloss) && guess.confidence < 1.0 {
+                if hands.contains(&guess.hand) {
+                    guess.why = format!("{}, but another attribute has the glosses", guess.why);
+                    (guess.role, guess.hand) = (Some(TierRole::Translation), None);
+                } else {
+                    hands.push(guess.hand);
+                }
+            }
+        }
+        if !tiers[track].is_track || guesses[track].confidence >= 1.0 {
+            continue;
+        }
+        let role = guesses[track].role.take();
+        if role.is_none() || attributes.iter().any(|at| guesses[*at].role == role) {
+            continue;
+        }
+        let unknown = attributes
+            .into_iter()
+            .find(|at| guesses[*at].role.is_none());
+        if let Some(first) = unknown.filter(|at| guesses[*at].confidence < 1.0) {
+            let why = format!("{}; it is that of its track", guesses[track].why);
+            let hand = guesses[track].hand;
+            let guess = &mut guesses[first];
+            (guess.role, guess.confidence, guess.why) = (role, 0.5, why);
+            guess.hand = guess.hand.or(hand);
+        }
+    }
 }
 
 /// The abbreviations in the tiers of one file.
@@ -172,7 +264,16 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
             why,
         };
     }
-    let own = TABLE.find(tier.name, |word| context.hand(word));
+    let mut own = TABLE.find(tier.name, |word| context.hand(word));
+    if let Some(subject) = tier.subject {
+        // The hand may be that of the track; the role is that of the attribute, unless that names only a hand.
+        let attribute = TABLE.find(subject, |word| context.hand(word));
+        let has_other_words = !attribute.roles.is_empty() || !attribute.unknown.is_empty();
+        if has_other_words || attribute.hand.is_none() {
+            own.roles = attribute.roles;
+            own.unknown = vec![subject.to_owned()];
+        }
+    }
     // A single letter such as "d" or "g" in the name of a type does not mean a hand.
     let spelt = |word: &str| context.hand(word).filter(|_| word.chars().count() > 2);
     let kind = TABLE.find(tier.kind, spelt);
@@ -193,7 +294,7 @@ fn guess(tier: &TierName<'_>, mapping: &Mapping, context: &Context) -> TierGuess
             0.6,
             format!("{word:?} in its type {:?}", tier.kind),
         )
-    } else if let Some(role) = TABLE.code(tier.name) {
+    } else if let Some(role) = TABLE.code(tier.subject.unwrap_or(tier.name)) {
         (
             Some(role),
             0.4,

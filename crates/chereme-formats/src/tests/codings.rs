@@ -189,6 +189,7 @@ fn golden_roles_of_tiers() {
             ""
         },
         one_to_one: parent.is_some(),
+        ..TierName::default()
     };
     put(&mut out, "## each by itself");
     for name in TIERS {

@@ -146,3 +146,27 @@ pub(crate) fn scene_file(out: &mut String, file: &[u8]) {
     let numbers: Vec<String> = numbers.collect();
     numbers.chunks(16).for_each(|row| put(out, row.join(" ")));
 }
+
+/// Returns a line for each tier of a transcript: its name, type and relation, and its annotations, each after the letter
+/// of the one above it.
+pub(crate) fn tiers_as_lines(transcript: &crate::eaf::Transcript) -> Vec<String> {
+    let line = |tier: &crate::eaf::convert::Tier| {
+        let mut line = format!("{} [{}]", tier.name, tier.kind);
+        if let (Some(stereotype), Some(above)) = (tier.stereotype, tier.parent) {
+            line += &format!(" {stereotype} of {}", transcript.tiers[above].name);
+        }
+        let annotations: Vec<String> = tier
+            .annotations
+            .iter()
+            .map(|it| {
+                let above = it.parent.map_or(String::new(), |it| {
+                    format!("{} ", char::from(b'a' + it.index as u8))
+                });
+                let (start, end) = (it.span.start().micros(), it.span.end().micros());
+                format!(" {above}{start}-{end} {:?}", it.value)
+            })
+            .collect();
+        format!("{line}:{}", annotations.join(","))
+    };
+    transcript.tiers.iter().map(line).collect()
+}
