@@ -189,6 +189,7 @@ fn a_gloss_tier_one_to_one_below_another_is_a_second_reading_of_it() {
         kind: "",
         parent,
         one_to_one: parent.is_some(),
+        ..TierName::default()
     };
     let below = TierName {
         one_to_one: false,

@@ -26,6 +26,7 @@ use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::db::{damaged, list};
 use crate::error::{Error, Result};
 use crate::import::eaf as properties;
+use crate::import::readers::annotations_of;
 use crate::inventories::{self, StoredInventory};
 
 /// Writes the tiers of a recording to a file.
@@ -157,8 +158,27 @@ fn base(
                 ..Media::default()
             })
             .collect(),
+        properties: named_texts(connection, recording)?,
         ..Transcript::default()
     })
+}
+
+/// Returns the named texts of the newest annotation file of another program that a recording came from.
+fn named_texts(connection: &Connection, recording: &RecordingRow) -> Result<Vec<(String, String)>> {
+    for file in recordings::source_files(connection, recording.id)?
+        .iter()
+        .rev()
+    {
+        let Some(read) = annotations_of(&file.kind) else {
+            continue;
+        };
+        if let Some(bytes) = recordings::source_bytes(connection, file.id)?
+            && let Ok((transcript, _)) = read(&bytes)
+        {
+            return Ok(transcript.properties);
+        }
+    }
+    Ok(Vec::new())
 }
 
 /// Updates the links of media that were linked again after the import; other links stay as in the file.

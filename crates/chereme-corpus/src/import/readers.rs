@@ -332,6 +332,15 @@ pub(crate) fn transcript(path: &Path) -> Option<Parse<Transcript>> {
     READERS[reader(path)?].transcript()
 }
 
+/// Returns the function that reads annotations from files of a kind in `source_file.kind`, if they hold annotations.
+pub(crate) fn annotations_of(kind: &str) -> Option<Parse<Transcript>> {
+    let reader = READERS.iter().find(|it| it.kind == kind)?;
+    match reader.contents {
+        Contents::Annotations(parse) => Some(parse),
+        _ => None,
+    }
+}
+
 /// Returns whether files of a kind in `source_file.kind` hold the movement of a body.
 pub(super) fn is_movement(kind: &str) -> bool {
     READERS.iter().any(|it| it.kind == kind && it.is_movement())

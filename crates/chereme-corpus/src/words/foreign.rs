@@ -76,8 +76,8 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
         "l’élément {index} de la piste {name} ne renvoie à aucun élément lu et a été laissé de côté",
     ),
     (
-        "element {index} of the track {name} has no time and was left out",
-        "l’élément {index} de la piste {name} n’a pas de temps et a été laissé de côté",
+        "element {index} of the track {name} has no time that can be read and was left out",
+        "l’élément {index} de la piste {name} n’a pas de temps lisible et a été laissé de côté",
     ),
     (
         "the elements of the track {name} span those of {other}: they have their times, and no link to them",

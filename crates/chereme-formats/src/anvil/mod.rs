@@ -8,6 +8,7 @@
 //! short annotations, as those of a TextGrid.
 
 mod convert;
+mod place;
 pub mod raw;
 #[cfg(test)]
 mod tests;

@@ -51,7 +51,7 @@ pub struct Element<'a> {
     pub index: Option<Text<'a>>,
     /// `start`: a time in seconds, or the index of an element.
     pub start: Option<Text<'a>>,
-    /// `end`, in the same way.
+    /// `end`: a time in seconds, or the index of an element.
     pub end: Option<Text<'a>>,
     /// `time` of a point, in seconds.
     pub time: Option<Text<'a>>,

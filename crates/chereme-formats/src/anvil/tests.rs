@@ -160,7 +160,7 @@ fn oddities_are_reported_and_nothing_is_lost_in_silence() {
         (
             "<track name=\"a\" type=\"primary\"><el index=\"7\" start=\"2\"/></track>",
             vec!["a []:"],
-            "element 7 of the track \"a\" has no time and was left out",
+            "element 7 of the track \"a\" has no time that can be read and was left out",
         ),
         (
             "<track name=\"a\" type=\"span\" ref=\"b\"><el start=\"0\" end=\"0\"/></track><track name=\"b\" type=\"span\" ref=\"a\"/>",

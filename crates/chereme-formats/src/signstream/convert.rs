@@ -26,12 +26,22 @@ pub(super) fn from_raw(document: &Document<'_>) -> Result<(Transcript, Vec<Findi
             .media
             .iter()
             .filter(|(_, path)| !path.trim().is_empty())
-            .map(|(_, path)| medium(path.trim()))
+            .map(|(_, path)| medium(&place(path.trim())))
             .collect(),
         tiers: tiers(document, rows, &mut findings),
         ..Transcript::default()
     };
     Ok((transcript, findings.finish()))
+}
+
+/// Returns a path with slashes; paths of the classic Macintosh have colons between folders.
+fn place(path: &str) -> String {
+    let is_classic = !path.contains(['/', '\\']);
+    if is_classic {
+        path.replace(':', "/")
+    } else {
+        path.to_owned()
+    }
 }
 
 /// Returns the number of groups of films that no utterance joins.

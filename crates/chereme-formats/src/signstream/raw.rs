@@ -71,7 +71,7 @@ pub struct Track<'a> {
 pub struct Item<'a> {
     /// `S`, in milliseconds from the start of the utterance.
     pub start: Text<'a>,
-    /// `E`, in the same way.
+    /// `E`, in milliseconds from the start of the utterance.
     pub end: Text<'a>,
     /// `VID`: the id of a value of the field.
     pub value: Option<Text<'a>>,

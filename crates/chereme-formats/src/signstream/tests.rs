@@ -27,7 +27,7 @@ fn fields_become_tiers_on_the_clock_of_the_film() {
         ]
     );
     assert_eq!(transcript.tiers[1].participant.as_deref(), Some("Benjamin"));
-    assert_eq!(transcript.media[1].url, "data:side.mov");
+    assert_eq!(transcript.media[1].url, "data/side.mov");
     assert_eq!(findings.len(), 1, "{findings:?}");
     let guesses = guess_tiers(&transcript, &Mapping::default());
     let topic = |at: usize| guesses[at].topic().map(|it| it.to_string());

@@ -5,7 +5,7 @@ use crate::address::{Address, Name};
 
 fn anvil(elements: &str) -> String {
     format!(
-        "<annotation><head><video src=\"take.mov\"/></head><body>\
+        "<annotation><head><video src=\"take.mov\"/><info key=\"coder\">Zoé</info></head><body>\
          <track name=\"Signs.Right\" type=\"primary\">{elements}</track>\
          <track name=\"Brows\" type=\"primarypoint\"><el index=\"0\" time=\"0.1\"><attribute name=\"type\">raised</attribute></el></track>\
          </body></annotation>"
@@ -27,7 +27,7 @@ const COLLECTION: &str = "<SIGNSTREAM-DATABASE><CODING-SCHEME><FIELD ID=\"1\" NA
     <UTTERANCE ID=\"1\" S=\"10\" E=\"150\"><SEGMENT PARTICIPANT-ID=\"0\"><TRACK FID=\"1\"><A S=\"0\" E=\"140\">CHAT</A></TRACK>\
     </SEGMENT></UTTERANCE></UTTERANCES></SIGNSTREAM-DATABASE>";
 
-fn hits(corpus: &Corpus, query: &str) -> u64 {
+fn hits(corpus: &mut Corpus, query: &str) -> u64 {
     let found = corpus.search(query, &SearchOptions::default());
     found.expect("an answer").total as u64
 }
@@ -52,7 +52,7 @@ fn signs_of_other_programs_are_found_with_their_movement() {
         );
         assert_eq!(recordings_of(&corpus), [1], "{name}");
         assert_eq!(roles(&corpus).len(), tiers, "{name}: {:?}", roles(&corpus));
-        assert_eq!(hits(&corpus, "gloss:CHAT"), 1, "{name}");
+        assert_eq!(hits(&mut corpus, "gloss:CHAT"), 1, "{name}");
         assert_whole(&mut corpus);
         let again = import(&mut corpus, &desk.file(name, &text), "{}");
         assert_eq!(
@@ -71,7 +71,7 @@ fn an_edited_anvil_file_updates_its_recording() {
     import(&mut corpus, &desk.file("take.bvh", MOVEMENT), "{}");
     let old = element(0, "0.05", "0.1", "CHAT", "5");
     import(&mut corpus, &desk.file("take.anvil", &anvil(&old)), "{}");
-    assert_eq!(hits(&corpus, "right.configuration=5"), 1);
+    assert_eq!(hits(&mut corpus, "right.configuration=5"), 1);
     // Another element comes before it, and its own end and handshape change.
     let new = element(0, "0", "0.05", "CHIEN", "B") + &element(1, "0.05", "0.12", "CHAT", "S");
     let report = import(&mut corpus, &desk.file("take.anvil", &anvil(&new)), "{}");
@@ -81,7 +81,7 @@ fn an_edited_anvil_file_updates_its_recording() {
         ("gloss=CHIEN right.configuration=B", 1),
         ("right.configuration=5", 0),
     ] {
-        assert_eq!(hits(&corpus, query), expected, "{query}");
+        assert_eq!(hits(&mut corpus, query), expected, "{query}");
     }
     assert_whole(&mut corpus);
     let folder = desk.folder.path();
@@ -95,6 +95,15 @@ fn an_edited_anvil_file_updates_its_recording() {
         let bytes = fs::read(folder.join(name)).expect("a file");
         let read = readers::transcript(Path::new(name)).expect("a reader");
         let (transcript, _) = read(&bytes).expect("a document");
+        if name == "out.eaf" {
+            let coder = ("coder".to_owned(), "Zoé".to_owned());
+            assert!(
+                transcript.properties.contains(&coder),
+                "{:?}",
+                transcript.properties
+            );
+            assert_eq!(transcript.media[0].url, "take.mov");
+        }
         let tier = transcript
             .tiers
             .iter()
