@@ -108,7 +108,7 @@ fn an_edited_anvil_file_updates_its_recording() {
             .tiers
             .iter()
             .find(|it| it.name == "Signs.Right.token");
-        let values: Vec<(i64, i64, &str)> = tier
+        let mut values: Vec<(i64, i64, &str)> = tier
             .expect("the tier")
             .annotations
             .iter()
@@ -120,6 +120,7 @@ fn an_edited_anvil_file_updates_its_recording() {
                 )
             })
             .collect();
+        values.sort_unstable();
         assert_eq!(
             values,
             [(0, 50_000, "CHIEN"), (50_000, 120_000, "CHAT")],
