@@ -20,6 +20,8 @@ pub mod keypoints;
 pub mod lexicon;
 mod markup;
 pub mod mp4;
+mod noughts;
+pub mod points;
 pub mod pose;
 mod reach;
 pub mod roles;

@@ -1,6 +1,6 @@
 //! The document that files of points and numbers become: tracks on one clock, and events.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_motion::{
     Axes, Column, Convention, Curves, Direction, Instant, Marker, Markers, Rate, Span,
@@ -150,16 +150,21 @@ pub(crate) fn events(name: &str, moments: &[(Instant, String)], rate: Rate) -> O
 /// Returns names without repetition; empty ones become `word 1` and so on.
 pub(crate) fn unique<'a>(names: impl Iterator<Item = &'a str>, word: &str) -> Vec<String> {
     let mut seen = BTreeSet::new();
+    // The last number of a name, so that a name that occurs a million times is numbered in one pass.
+    let mut last: BTreeMap<String, u64> = BTreeMap::new();
     let named = (1..).zip(names).map(|(at, name)| {
         let wanted = if name.is_empty() {
             format!("{word} {at}")
         } else {
             name.to_owned()
         };
+        if seen.insert(wanted.clone()) {
+            return wanted;
+        }
         let mut unique = wanted.clone();
-        let mut count = 1;
+        let count = last.entry(wanted.clone()).or_insert(1);
         while !seen.insert(unique.clone()) {
-            count += 1;
+            *count += 1;
             unique = format!("{wanted} ({count})");
         }
         unique
@@ -219,13 +224,15 @@ fn left_of(markers: &[Marker], up: Direction) -> Option<Direction> {
     let mut sum = DVec3::ZERO;
     let up = up.vector();
     let names: Vec<String> = markers.iter().map(|it| it.name.to_lowercase()).collect();
+    let mut known: BTreeMap<(&str, &str), &Marker> = BTreeMap::new();
+    for (marker, name) in markers.iter().zip(&names) {
+        known.entry((&marker.group, name)).or_insert(marker);
+    }
     for (left, name) in markers.iter().zip(&names) {
         let Some(other) = other_side(name) else {
             continue;
         };
-        let mut found = markers.iter().zip(&names);
-        let Some((right, _)) = found.find(|(it, name)| **name == other && it.group == left.group)
-        else {
+        let Some(right) = known.get(&(left.group.as_str(), other.as_str())) else {
             continue;
         };
         let frames = left.place.first().map_or(0, Column::len);

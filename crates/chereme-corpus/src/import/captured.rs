@@ -5,13 +5,13 @@ use std::io::Read as _;
 use std::path::Path;
 
 use chereme_formats::eaf::Transcript;
+use chereme_formats::points::{self as point_tables, PointFile};
 use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks, another_rate};
 use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
 use chereme_motion::{Anatomy, Capture, Convention, Rate, Skeleton, Space};
 use chereme_sign::{Choice, Remedy};
 
-use super::readers::Parse;
 use super::report::ReportFinding;
 use super::understood::MovementRead;
 use super::{
@@ -39,13 +39,43 @@ pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> R
     })
 }
 
-/// Reads a table: curves if its first column is a time, tiers if its rows are annotations, otherwise a lexicon.
+/// Reads a table: markers if its columns are places of points, curves if its first column is a time, tiers if its rows
+/// are annotations, otherwise a lexicon.
 pub(super) fn import_table(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
-    match head(job.path)? {
-        head if curves::CurveFile::of(&head).is_some() => import_curves(job, progress),
-        head if annotations::is_export(&head) => import_tiers(job, progress),
-        _ => lexicon::import(job, progress),
+    let head = head(job.path)?;
+    let curves = curves::CurveFile::of(&head);
+    let is_face = curves.is_some_and(|it| it != curves::CurveFile::Plain);
+    let points = table_of_points(job.path)?.filter(|_| !is_face);
+    match points {
+        // An exported tier may have columns of numbers, too.
+        Some(PointFile::Plain) if curves.is_none() && annotations::is_export(&head) => {
+            import_tiers(job, progress)
+        }
+        Some(_) => import_points(job, progress),
+        None if curves.is_some() => import_curves(job, progress),
+        None if annotations::is_export(&head) => import_tiers(job, progress),
+        None => lexicon::import(job, progress),
     }
+}
+
+/// The number of bytes that hold the titles of the widest table of points, and some of its rows.
+const HEAD_OF_POINTS: usize = 1 << 20;
+
+/// Returns the kind of a table of points.
+fn table_of_points(path: &Path) -> Result<Option<PointFile>> {
+    Ok(PointFile::of(&beginning(path, HEAD_OF_POINTS)?))
+}
+
+/// The kind of a table of points in `source_file.kind`.
+const POINTS: &str = "table of points";
+
+/// Reads points from a table.
+fn import_points(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
+    job.kind = POINTS;
+    let rate = job.options.rate;
+    import_tracks(job, progress, |bytes| {
+        point_tables::read(bytes, rate).map_err(|it| it.to_string())
+    })
 }
 
 /// Reads JSON: scores of a face, points from film, otherwise an inventory or signs.
@@ -60,20 +90,22 @@ pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
     }
 }
 
-/// Reads a text file: signs that another program exported as JSON, tiers if its rows are annotations, otherwise lines of
-/// HamNoSys.
+/// Reads a text file: signs that another program exported as JSON, markers if its columns are places of points, tiers if
+/// its rows are annotations, otherwise lines of HamNoSys.
 pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match head(job.path)? {
         head if is_export_of_signs(&head) => lexicon::import(job, progress),
+        _ if table_of_points(job.path)?.is_some() => import_points(job, progress),
         head if annotations::is_export(&head) => import_tiers(job, progress),
         _ => notated::import_lines(job, progress),
     }
 }
 
-/// Returns whether a text file is an export of another program: signs of SLP-AA as JSON, or annotations.
+/// Returns whether a text file is an export of another program: signs of SLP-AA as JSON, points, or annotations.
 pub(super) fn is_export(path: &Path) -> bool {
     let head = head(path).unwrap_or_default();
-    is_export_of_signs(&head) || annotations::is_export(&head)
+    let has_points = || table_of_points(path).is_ok_and(|kind| kind.is_some());
+    is_export_of_signs(&head) || annotations::is_export(&head) || has_points()
 }
 
 /// The kind of a table of annotations in `source_file.kind`.
@@ -114,10 +146,15 @@ fn is_export_of_signs(head: &[u8]) -> bool {
 
 /// Returns the first bytes of a file.
 pub(super) fn head(path: &Path) -> Result<Vec<u8>> {
+    beginning(path, HEAD)
+}
+
+/// Returns the first `most` bytes of a file.
+fn beginning(path: &Path, most: usize) -> Result<Vec<u8>> {
     let fault = |error| Error::file(path, error);
     let mut head = Vec::new();
     let file = File::open(path).map_err(fault)?;
-    file.take(HEAD as u64)
+    file.take(most as u64)
         .read_to_end(&mut head)
         .map_err(fault)?;
     Ok(head)
@@ -341,7 +378,7 @@ fn begun(job: &Job<'_>, findings: Vec<Finding>) -> FileReport {
 pub(super) fn import_tracks(
     job: &mut Job<'_>,
     progress: &mut Progress<'_>,
-    read: Parse<Tracks>,
+    read: impl FnOnce(&[u8]) -> std::result::Result<(Tracks, Vec<Finding>), String>,
 ) -> Result<FileReport> {
     if let Some(report) = job.unchanged() {
         return with_kept_form(job, report);
@@ -353,21 +390,24 @@ pub(super) fn import_tracks(
     if let Some(rate) = job.options.rate {
         findings.extend(set_rate(&mut document, rate));
     }
-    set_convention(&mut document, job.options);
+    set_convention(&mut document, job.options, job.kind == POINTS);
     job.report_progress(progress)?;
     keep_take(job, document, findings, progress)
 }
 
-/// Gives measured points of a document the unit and the axes that the caller states.
-fn set_convention(document: &mut Tracks, options: &ImportOptions) {
+/// Gives measured points of a document the unit and the axes that the caller states, and estimated ones if it `takes_all`:
+/// tables state neither.
+fn set_convention(document: &mut Tracks, options: &ImportOptions, takes_all: bool) {
     for track in &mut document.tracks {
         let Content::Markers(markers) = &mut track.content else {
             continue;
         };
-        let (Space::World(stated), Capture::Measured) = (*markers.space(), markers.capture())
-        else {
+        let Space::World(stated) = *markers.space() else {
             continue;
         };
+        if markers.capture() == Capture::Estimated && !takes_all {
+            continue;
+        }
         *markers = markers.clone().in_room(Convention {
             metres_per_unit: options.metres_per_unit.unwrap_or(stated.metres_per_unit),
             axes: options.axes.unwrap_or(stated.axes),

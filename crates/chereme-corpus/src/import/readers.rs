@@ -170,8 +170,8 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["csv", "tsv"],
         kind: "lexicon",
         holds: Text::new(
-            "lexicons, faces, tables of annotations",
-            "lexiques, visages, tables d’annotations",
+            "lexicons, markers, faces, tables of annotations",
+            "lexiques, marqueurs, visages, tables d’annotations",
         ),
         looks: always,
         keeps_inventories: false,
@@ -189,8 +189,8 @@ pub(super) static READERS: &[Reader] = &[
         endings: &["hns", "txt"],
         kind: "lexicon",
         holds: Text::new(
-            "lines of HamNoSys, tables of annotations",
-            "lignes de HamNoSys, tables d’annotations",
+            "lines of HamNoSys, markers, tables of annotations",
+            "lignes de HamNoSys, marqueurs, tables d’annotations",
         ),
         looks: |path| Form::of(path) == Some(Form::Lines) || captured::is_export(path),
         keeps_inventories: false,

@@ -5,6 +5,7 @@ mod captured;
 mod film;
 mod foreign;
 mod lexicon;
+mod points;
 mod reading;
 mod renamed;
 #[cfg(target_os = "linux")]

@@ -25,6 +25,7 @@ use super::importing::IMPORTING;
 use super::lines::{GENERAL, LINES};
 use super::moving::MOVING;
 use super::notes::NOTES;
+use super::pointed::POINTED;
 use super::publishing::PUBLISHING;
 use super::queries::QUERIES;
 use super::reading::READING;
@@ -532,6 +533,7 @@ pub fn forms(own: &[Forms]) -> impl Iterator<Item = (&'static str, &'static str)
         .chain(STUDIES)
         .chain(PUBLISHING)
         .chain(REPORTS)
+        .chain(POINTED)
         .chain(CAPTURES)
         .chain(FOREIGN)
         .chain(DOCUMENTS)

@@ -44,6 +44,7 @@ pub mod merge;
 mod messages;
 mod moving;
 mod notes;
+mod pointed;
 mod publishing;
 mod queries;
 mod reading;

@@ -288,7 +288,7 @@ fn face(table: &Table, findings: &mut Findings) -> Result<Channels, Error> {
 const STEPS_OF_FILM: std::ops::RangeInclusive<f64> = 4.0..=100.0;
 
 /// Returns whether times without a unit are milliseconds: whole numbers whose usual step is that of a film's frames.
-fn are_millis(times: &[f64]) -> bool {
+pub(crate) fn are_millis(times: &[f64]) -> bool {
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
     let usual = steps.get(steps.len() / 2);
@@ -316,14 +316,14 @@ fn seconds(table: &Table, at: usize, unit: f64) -> Result<Vec<f64>, Error> {
 
 /// The unit of a column of times, from its title: its length in seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum TimeUnit {
+pub(crate) enum TimeUnit {
     Seconds(f64),
     /// Frames at the rate that the title names, such as `frame [25 fps]`.
     Frames(f64),
 }
 
 /// Reads the title of a column of times, such as `time [s]`, `ms` or `frame [25 fps]`.
-pub(super) fn unit_of_time(title: &str) -> Option<TimeUnit> {
+pub(crate) fn unit_of_time(title: &str) -> Option<TimeUnit> {
     let title = title.to_lowercase();
     let (name, unit) = match title.split_once(['[', '(']) {
         Some((name, unit)) => (name.trim(), unit.trim_end_matches([']', ')']).trim()),

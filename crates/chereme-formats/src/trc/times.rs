@@ -100,7 +100,7 @@ fn numbers(cells: &[Option<Number>]) -> Option<Vec<f64>> {
 }
 
 /// Returns the worth of the last decimal of the times as they are written.
-fn decimals(times: &[Option<Number>]) -> f64 {
+pub(crate) fn decimals(times: &[Option<Number>]) -> f64 {
     let count = |time: &Number| {
         let mut text = Vec::new();
         time.push_to(&mut text);

@@ -1,0 +1,125 @@
+//! Tests of tables of points: markers from tables, and other tables that stay what they are.
+
+use chereme_formats::points;
+use chereme_formats::tracks::Content;
+use chereme_motion::Rate;
+
+use super::*;
+use crate::track::TrackKind;
+
+const WRIST: &str = "time,LWRA_x,LWRA_y,LWRA_z\n0.00,1.50,900,3\n0.01,1.60,,3\n0.02,1.70,901,3.000\n";
+const NEXUS: &str = "Trajectories\n100\n,,Anna:LWRA,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1.50,900,3\n2,0,1.60,,\n";
+
+/// Returns the kinds of tracks that a file becomes, or its status.
+fn kinds(corpus: &mut Corpus, file: &Path) -> String {
+    let before = recordings_of(corpus).len();
+    let report = import(corpus, file, "{}");
+    let Some(id) = recordings_of(corpus).get(before).copied() else {
+        return format!("{:?}", report.status);
+    };
+    let rows = crate::db::tracks::tracks(corpus.store.read(), id).expect("tracks");
+    let kinds: Vec<&str> = rows.iter().map(|row| row.kind.name()).collect();
+    match kinds.is_empty() {
+        true => format!("{:?}", report.status),
+        false => kinds.join(" "),
+    }
+}
+
+#[test]
+fn tables_of_points_become_markers_and_others_stay_what_they_are() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let face = "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n";
+    for (name, text, expected) in [
+        ("wrist.csv", WRIST, "markers"),
+        ("nexus.csv", NEXUS, "markers"),
+        ("nexus2.txt", NEXUS, "markers"),
+        ("force.csv", "time,Fx,Fy,Fz\n0,1,2,3\n0.01,1,2,3\n", "curves"),
+        ("face.csv", face, "curves"),
+        ("shapes.csv", "time,jawOpen,eye_x,eye_y\n0,0.1,2,3\n0.01,0.1,2,3\n", "curves"),
+        ("words.csv", "gloss,x,y\nBOL,1,2\nCHAT,3,4\n", "Imported"),
+        ("tiers.csv", "tier,begin,end,value\nGloss,0.5,1.5,BOL\n", "Imported"),
+    ] {
+        assert_eq!(kinds(&mut corpus, &desk.file(name, text)), expected, "{name}");
+    }
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn shared_tables_of_other_things_are_no_points() {
+    let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") else {
+        eprintln!("skipped: CHEREME_SHARED_DATA names no folder");
+        return;
+    };
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let data = Path::new(&data);
+    for (file, expected) in [
+        ("face/alexdjulin-LiveLinkFace/alex_rom_4.csv", "curves"),
+        ("face/cosanlab-py-feat/OpenFace_Test.csv", "curves"),
+        ("face/think-biq-LLV/dao_decoded.csv", "curves"),
+        ("phonology/ngt_lexicon.tsv", "Imported"),
+        ("annotation/eaf/neocl-speach/test.eaf.tsv", "Refused"),
+        ("notation/hamnosys/lingpy-pysign/test-signs.tsv", "Imported"),
+        ("notation/hamnosys/hearai-parse-hamnosys/hamnosys_example.txt", "Imported"),
+    ] {
+        assert_eq!(kinds(&mut corpus, &data.join(file)), expected, "{file}");
+    }
+}
+
+#[test]
+fn exported_tables_give_the_same_numbers_back() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    for (name, text) in [("wrist.csv", WRIST), ("nexus.csv", NEXUS)] {
+        import(&mut corpus, &desk.file(name, text), "{}");
+        let (read, _) = points::read(text.as_bytes(), None).expect("read");
+        let Content::Markers(expected) = &read.tracks[0].content else {
+            panic!("markers");
+        };
+        let stem = name.trim_end_matches(".csv");
+        let address = format!("recording:{stem}").parse().expect("an address");
+        let out = desk.folder.path().join(format!("{stem}.markers.csv"));
+        let mut hear = unheard;
+        corpus
+            .export(
+                &ExportWhat::Address(address),
+                &out,
+                &ExportOptions::default(),
+                &mut Progress::new(&mut hear),
+            )
+            .expect("exported");
+        let (again, findings) = points::read(&fs::read(&out).expect("bytes"), None).expect("read");
+        let Content::Markers(again) = &again.tracks[0].content else {
+            panic!("markers");
+        };
+        assert_eq!(again.points(), expected.points(), "{findings:?}");
+        assert_eq!(again.times(), expected.times());
+    }
+}
+
+#[test]
+fn a_table_without_a_rate_takes_the_one_that_is_asked_for_and_its_unit_and_axes() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let text = "LWRA_x,LWRA_y,LWRA_z,LWRA_score\n1.50,900,3,0.9\n1.60,901,3,0.8\n";
+    let options = ImportOptions {
+        rate: Rate::new(50, 1).ok(),
+        metres_per_unit: Some(0.01),
+        axes: Some("+Z,-X".parse().expect("axes")),
+        ..ImportOptions::default()
+    };
+    let mut hear = unheard;
+    let take = desk.file("take.csv", text);
+    let report = corpus.import(&[take], &options, &mut Progress::new(&mut hear));
+    let report = report.expect("imported").files.remove(0);
+    let id = recordings_of(&corpus)[0];
+    let rows = crate::db::tracks::tracks(corpus.store.read(), id).expect("tracks");
+    let form = crate::db::tracks::form(corpus.store.read(), rows[0].id).expect("a form");
+    assert_eq!(rows[0].kind, TrackKind::Markers);
+    assert_eq!(rows[0].rate, Rate::new(50, 1).ok());
+    assert_eq!(form.metres_per_unit, Some(0.01));
+    assert_eq!(form.axes.as_deref(), Some("+Z,-X"));
+    let is_rate = |it: &&ReportFinding| it.message.contains("frames a second are taken");
+    assert_eq!(report.findings.iter().find(is_rate), None);
+}

@@ -1,0 +1,178 @@
+//! The times of the rows of a table of points.
+
+use chereme_motion::column::{Column, Number};
+use chereme_motion::{Instant, Rate, Times};
+use chereme_sign::Remedy;
+
+use super::Error;
+use super::rows::{Layout, Rows};
+use crate::curves::{TimeUnit, are_millis};
+use crate::finding::Finding;
+use crate::keypoints::USUAL_RATE;
+use crate::scene::near_usual;
+use crate::tally::Findings;
+use crate::timecode::DAY;
+use crate::tracks::rate_of;
+use crate::trc::decimals;
+
+/// The largest distance of a time from an even grid, as a share of a frame, if a rate is stated, and if none is.
+const SLACK: [f64; 2] = [0.5, 0.1];
+
+/// Returns an even rate if the rows are even, else their own times; and the time of the first row.
+pub(super) fn times(
+    rows: &Rows,
+    layout: &Layout,
+    wanted: Option<Rate>,
+    findings: &mut Findings,
+) -> Result<(Times, Instant), Error> {
+    let stated = layout.rate.and_then(rate_of);
+    let unit = match layout.time {
+        Some((_, TimeUnit::Seconds(unit))) => unit,
+        Some((_, TimeUnit::Frames(rate))) => 1.0 / rate,
+        None => 1.0,
+    };
+    let Some(times) = numbers(&rows.times).filter(|_| layout.time.is_some()) else {
+        return by_number(rows, layout, stated.or(wanted), findings);
+    };
+    let first = times[0];
+    let millis = unit == 1.0 && stated.is_none() && are_millis(&times);
+    let unit = if millis { 0.001 } else { unit };
+    let seconds: Vec<f64> = times.iter().map(|time| (time - first) * unit).collect();
+    let offset = offset(first * unit, findings);
+    let last_decimal = decimals(&rows.times) * unit;
+    if millis {
+        findings.push(
+            Finding::warning(
+                layout.line,
+                "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds",
+            )
+            .with_remedy(
+                "write the unit into the title of that column, such as time [ms] or time [s]",
+            ),
+        );
+    }
+    if let [_] = seconds[..] {
+        let (times, _) = by_number(rows, layout, stated.or(wanted), findings)?;
+        return Ok((times, offset));
+    }
+    if let Some(rate) = stated {
+        if is_even(&seconds, rate, SLACK[0], last_decimal) {
+            return Ok((Times::Even(rate), offset));
+        }
+        let thousandth: Vec<f64> = seconds.iter().map(|time| time / 1000.0).collect();
+        if is_even(&thousandth, rate, SLACK[0], last_decimal / 1000.0) {
+            let text =
+                "the times are milliseconds, as the stated rate shows; they are read as such";
+            findings.push(Finding::warning(None, text));
+            return Ok((
+                Times::Even(rate),
+                Instant::from_seconds(first * unit / 1000.0),
+            ));
+        }
+    }
+    let mean = (seconds.len() - 1) as f64 / seconds[seconds.len() - 1];
+    let mut steps: Vec<f64> = seconds.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual = 1.0 / steps[steps.len() / 2];
+    let rates = [near_usual(mean), mean, near_usual(usual), usual];
+    let even = rates.into_iter().filter_map(rate_of);
+    let even = even
+        .into_iter()
+        .find(|rate| is_even(&seconds, *rate, SLACK[1], last_decimal));
+    if let Some(rate) = even {
+        if let Some(stated) = stated {
+            let text = format!(
+                "the file states {stated}, and the times of the rows show {rate}, which is taken"
+            );
+            findings.push(Finding::warning(None, text));
+        }
+        return Ok((Times::Even(rate), offset));
+    }
+    if let Some(at) = seconds.windows(2).position(|pair| pair[1] <= pair[0]) {
+        let line = rows.lines[at + 1];
+        return Err(Error::Backwards { line });
+    }
+    let text = "the times of the frames are not even; every frame has its own time";
+    findings.push(Finding::note(None, text));
+    let times = Times::listed(Column::doubles(seconds));
+    let times = times.map_err(|error| Error::Track(error.to_string()))?;
+    Ok((times, offset))
+}
+
+/// Returns the times that the numbers of the frames show, at the rate that is known, else the usual one.
+fn by_number(
+    rows: &Rows,
+    layout: &Layout,
+    rate: Option<Rate>,
+    findings: &mut Findings,
+) -> Result<(Times, Instant), Error> {
+    if layout.time.is_some() && rows.lines.len() > 1 {
+        let text = "some rows have no time; the numbers of the frames and the rate show it";
+        findings.push(Finding::warning(None, text));
+    }
+    let rate = match rate {
+        Some(rate) => rate,
+        None => {
+            let text = format!(
+                "the table states neither a rate nor times; {USUAL_RATE} frames a second are taken"
+            );
+            findings.push(Finding::warning(None, text).with_remedy(Remedy::command(
+                "import it with --rate, such as --rate 50 or --rate 30000/1001",
+            )));
+            Rate::new(USUAL_RATE, 1).map_err(|error| Error::Track(error.to_string()))?
+        }
+    };
+    let Some(frames) = numbers(&rows.frames).filter(|_| layout.frame.is_some()) else {
+        return Ok((Times::Even(rate), Instant::ZERO));
+    };
+    if frames[0] > 1.0 {
+        let text = format!(
+            "it begins with frame {} of its capture; that is 0 s here",
+            frames[0]
+        );
+        findings.push(Finding::note(None, text));
+    }
+    let even = frames.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
+    if even {
+        return Ok((Times::Even(rate), Instant::ZERO));
+    }
+    if !frames.is_sorted_by(|a, b| a < b) {
+        let text = "the numbers of the frames do not rise; the rows are taken one after the other";
+        findings.push(Finding::warning(None, text));
+        return Ok((Times::Even(rate), Instant::ZERO));
+    }
+    let text = "frames are missing, as their numbers show; every frame has its own time";
+    findings.push(Finding::note(None, text));
+    let seconds = frames
+        .iter()
+        .map(|frame| (frame - frames[0]) * rate.frame_time());
+    let times = Times::listed(Column::doubles(seconds.collect()));
+    let times = times.map_err(|error| Error::Track(error.to_string()))?;
+    Ok((times, Instant::ZERO))
+}
+
+/// Returns whether times from the first one on are those of a rate.
+fn is_even(seconds: &[f64], rate: Rate, slack: f64, last_decimal: f64) -> bool {
+    let slack = slack * rate.frame_time() + last_decimal;
+    let near =
+        |(frame, time): (usize, &f64)| (time - frame as f64 * rate.frame_time()).abs() <= slack;
+    seconds.iter().enumerate().all(near)
+}
+
+/// Returns the time of the first row; a date is none.
+fn offset(seconds: f64, findings: &mut Findings) -> Instant {
+    if seconds.abs() < DAY {
+        return Instant::from_seconds(seconds);
+    }
+    let text = format!("its first frame has the time {seconds:.3} s; that is 0 s here");
+    findings.push(Finding::note(None, text));
+    Instant::ZERO
+}
+
+/// Returns the numbers of a column if none is missing.
+fn numbers(column: &[Option<Number>]) -> Option<Vec<f64>> {
+    let numbers = column.iter().map(|it| it.as_ref().map(Number::to_f64));
+    numbers
+        .collect::<Option<Vec<f64>>>()
+        .filter(|all| !all.is_empty())
+}

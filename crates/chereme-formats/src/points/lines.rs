@@ -1,0 +1,82 @@
+//! Lines and cells of a table of text.
+
+use std::borrow::Cow;
+
+/// The lines of a text, whatever ends them.
+pub(super) struct Lines<'t> {
+    text: Cow<'t, str>,
+    /// Whether the last line has an end.
+    pub(super) is_whole: bool,
+}
+
+impl<'t> Lines<'t> {
+    pub(super) fn of(text: &'t str) -> Self {
+        let is_whole = text.ends_with(['\n', '\r']);
+        let text = match text.contains('\n') {
+            true => Cow::Borrowed(text),
+            false => Cow::Owned(text.replace('\r', "\n")),
+        };
+        Self { text, is_whole }
+    }
+
+    /// Returns the lines with their numbers, counted from 1; lines of nothing but blanks and delimiters are empty.
+    pub(super) fn all(&self) -> impl Iterator<Item = (u64, &str)> {
+        let blank = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ';');
+        (1..).zip(self.text.lines()).map(move |(line, text)| {
+            let bare = text.trim_start_matches('\u{feff}');
+            match bare.trim_matches(blank).is_empty() {
+                true => (line, ""),
+                false => (line, bare.trim_end_matches('\r')),
+            }
+        })
+    }
+
+    /// Returns the lines that are not blank.
+    pub(super) fn filled(&self) -> impl Iterator<Item = (u64, &str)> {
+        self.all().filter(|(_, text)| !text.is_empty())
+    }
+
+    /// Returns the first lines that are not blank, without one like `sep=;`.
+    pub(super) fn first(&self, count: usize) -> Vec<(u64, &str)> {
+        let filled = self.filled();
+        let filled = filled.filter(|(_, line)| !line.trim_matches('"').starts_with("sep="));
+        filled.take(count).collect()
+    }
+}
+
+/// Returns the delimiter that occurs most often in a line of titles.
+pub(super) fn delimiter(line: &str) -> char {
+    let count = |letter: char| line.matches(letter).count();
+    let all = [',', ';', '\t'];
+    let most = all.into_iter().max_by_key(|letter| count(*letter));
+    most.unwrap_or(',')
+}
+
+/// Returns the cells of a line without the blanks and quotation marks around them.
+pub(super) fn cells(line: &str, delimiter: char) -> Vec<&str> {
+    let mut cells = Vec::new();
+    let mut rest = Some(line);
+    while let Some(text) = rest {
+        let (cell, after) = match quoted(text, delimiter) {
+            Some(found) => found,
+            None => match text.split_once(delimiter) {
+                Some((cell, after)) => (cell, Some(after)),
+                None => (text, None),
+            },
+        };
+        cells.push(cell.trim());
+        rest = after;
+    }
+    cells
+}
+
+/// Splits off a cell in quotation marks that close before a delimiter or the end of the line.
+fn quoted(text: &str, delimiter: char) -> Option<(&str, Option<&str>)> {
+    let inside = text.trim_start_matches(' ').strip_prefix('"')?;
+    let (cell, after) = inside.split_once('"')?;
+    let after = after.trim_start_matches(' ');
+    match after.strip_prefix(delimiter) {
+        Some(after) => Some((cell, Some(after))),
+        None => after.is_empty().then_some((cell, None)),
+    }
+}

@@ -1,0 +1,314 @@
+//! Marker movement as tables of text: what Motive, Nexus, QTM, DeepLabCut, Anipose and people's own scripts write.
+//!
+//! A row is a frame, and two or three columns are a point. The numbers are kept as decimals; columns of numbers that
+//! belong to no point become curves.
+//!
+//! ```
+//! use chereme_formats::points;
+//!
+//! let table = b"time,wrist_x,wrist_y,wrist_z\n0,0.1,1.2,0.3\n0.01,0.1,1.3,0.3\n";
+//! assert_eq!(points::PointFile::of(table), Some(points::PointFile::Plain));
+//! let (tracks, _) = points::read(table, None)?;
+//! assert_eq!(tracks.tracks[0].name, "markers");
+//! # Ok::<(), points::Error>(())
+//! ```
+
+mod clock;
+mod lines;
+mod motive;
+mod plain;
+mod qualisys;
+mod rows;
+mod space;
+mod stacked;
+#[cfg(test)]
+mod tests;
+mod titles;
+mod vicon;
+
+use chereme_motion::column::Column;
+use chereme_motion::{Capture, Curve, Curves, Instant, Marker, Markers, Quality, Rate, Times};
+
+use crate::finding::Finding;
+use crate::noughts::open_noughts;
+use crate::table::{TableError, decode};
+use crate::tally::Findings;
+use crate::tracks::{Content, FileTrack, Tracks, events, unique};
+use lines::Lines;
+use rows::{Layout, Rows};
+
+/// The kinds of tables of points.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PointFile {
+    /// The CSV of OptiTrack Motive.
+    Motive,
+    /// The CSV of Vicon Nexus: sections, of which `Trajectories` holds points.
+    Vicon,
+    /// The TSV of Qualisys Track Manager.
+    Qualisys,
+    /// Titles over several rows: names above `x`, `y` and `z`, as DeepLabCut writes them.
+    Stacked,
+    /// One row of titles, which name a point and its axis.
+    Plain,
+}
+
+impl PointFile {
+    /// Returns the kind of table that begins with these bytes; `None` if it holds no points.
+    #[must_use]
+    pub fn of(head: &[u8]) -> Option<Self> {
+        let text = decode(head, &mut Findings::default()).ok()?;
+        let lines = Lines::of(&text);
+        if motive::begins(&lines) {
+            return Some(Self::Motive);
+        }
+        if vicon::begins(&lines) {
+            return Some(Self::Vicon);
+        }
+        if qualisys::begins(&lines) {
+            return Some(Self::Qualisys);
+        }
+        if stacked::layout(&lines).is_some() {
+            return Some(Self::Stacked);
+        }
+        plain::begins(&lines).then_some(Self::Plain)
+    }
+}
+
+/// Why bytes could not be read as a table of points.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+pub enum Error {
+    /// The file is not text.
+    #[error("line {line}: this is not text")]
+    NotText {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// The titles name no points.
+    #[error(
+        "this is no table of points: no columns have the name of a point and an axis, such as wrist_x, wrist_y and wrist_z"
+    )]
+    Unknown,
+    /// A row of the header is missing.
+    #[error("the header has no row of {0}; export the take again with its header")]
+    Missing(&'static str),
+    /// The sections of the file hold no places of markers.
+    #[error(
+        "the file has no section Trajectories, which holds markers, but {0}; export the trajectories, too"
+    )]
+    Sections(String),
+    /// Places of bones are relative to their parents.
+    #[error(
+        "the places of its bones are relative to their parents (Coordinate Space is Local), and it holds no markers; export them in global coordinates, or the take as BVH, FBX or C3D"
+    )]
+    Local,
+    /// The file holds bodies without places that can be found.
+    #[error(
+        "line {line}: the titles of the bodies (BODY_NAMES) do not show which columns are places; export the take as C3D, or as TSV with 3D data"
+    )]
+    Bodies {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// Each row is one point of a frame.
+    #[error(
+        "each row is one point of a frame, which the column {column:?} names; write one row for each frame, with columns such as wrist_x, wrist_y and wrist_z"
+    )]
+    Long {
+        /// The title of the column that names the points.
+        column: String,
+    },
+    /// A row has more cells than the header.
+    #[error("line {line}: the row has {found} cells, and the header has {expected}")]
+    Width {
+        /// The line, counted from 1.
+        line: u64,
+        /// The cells of the row.
+        found: usize,
+        /// The cells of the header.
+        expected: usize,
+    },
+    /// Rows lack more cells than may be added.
+    #[error(
+        "line {line}: the rows up to here lack {lacking} cells of the header; the header fits other rows than these"
+    )]
+    Ragged {
+        /// The line, counted from 1.
+        line: u64,
+        /// The number of missing cells so far.
+        lacking: usize,
+    },
+    /// There are more columns than any capture has.
+    #[error("the header has more than {0} columns")]
+    Columns(usize),
+    /// A cell is not a number.
+    #[error("line {line}: {cell:?} is no number")]
+    Number {
+        /// The line, counted from 1.
+        line: u64,
+        /// The cell, cut to 40 characters.
+        cell: String,
+    },
+    /// The time of a row is not after that of the row before.
+    #[error(
+        "line {line}: its time is not after that of the row before; sort the rows by time, one row for each frame"
+    )]
+    Backwards {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// There are no rows or no points.
+    #[error("the file holds no points")]
+    Empty,
+    /// The rows cannot be a track.
+    #[error("{0}")]
+    Track(String),
+}
+
+/// Reads a table of points of any kind that [`PointFile::of`] recognises; `rate` is that of the frames if the table
+/// states none.
+///
+/// # Errors
+/// [`Error`] if the table holds no points, or its rows do not fit its header.
+pub fn read(bytes: &[u8], rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), Error> {
+    let mut findings = Findings::default();
+    let text = decode(bytes, &mut findings).map_err(|error| match error {
+        TableError::NotText { line } => Error::NotText { line },
+        _ => Error::Unknown,
+    })?;
+    let lines = Lines::of(&text);
+    let layout = if motive::begins(&lines) {
+        motive::layout(&lines, &mut findings)?
+    } else if vicon::begins(&lines) {
+        vicon::layout(&lines, &mut findings)?
+    } else if qualisys::begins(&lines) {
+        qualisys::layout(&lines, &mut findings)?
+    } else if let Some(layout) = stacked::layout(&lines) {
+        layout?
+    } else {
+        plain::layout(&lines, &mut findings)?
+    };
+    let tracks = tracks(&lines, layout, rate, &mut findings)?;
+    Ok((tracks, findings.finish()))
+}
+
+/// Reads the rows of a table whose columns are known.
+fn tracks(
+    lines: &Lines<'_>,
+    layout: Layout,
+    wanted: Option<Rate>,
+    findings: &mut Findings,
+) -> Result<Tracks, Error> {
+    let mut rows = Rows::read(lines, &layout, findings)?;
+    let (times, offset) = clock::times(&rows, &layout, wanted, findings)?;
+    let wide = layout.wide();
+    let names = names(&layout, findings);
+    if wide == 3 {
+        let shown: Vec<String> = names.iter().map(|(_, name)| name.clone()).collect();
+        open_noughts(&shown, &mut rows.places, findings);
+    }
+    rows.open_unsure(&layout);
+    let mut places = rows.places.into_iter();
+    let mut sure = rows.quality.into_iter();
+    let made = layout
+        .points
+        .iter()
+        .zip(names)
+        .map(|(point, (group, name))| {
+            let place = places.by_ref().take(wide).map(Column::decimals).collect();
+            let quality = point.quality.and_then(|_| sure.next());
+            Marker {
+                group,
+                name,
+                place,
+                quality: quality.map(Column::decimals),
+            }
+        });
+    let made: Vec<Marker> = made.collect();
+    let space = space::of(&layout, &made, findings);
+    let capture = match layout.quality {
+        Some(Quality::Confidence) => Capture::Estimated,
+        _ if wide == 2 => Capture::Estimated,
+        _ => Capture::Measured,
+    };
+    let fault = |error: chereme_motion::TrackError| Error::Track(error.to_string());
+    let markers = Markers::new(times.clone(), space, made).map_err(fault)?;
+    let markers = markers.captured(capture);
+    let markers = match layout.quality {
+        Some(quality) => markers.rated(quality),
+        None => markers,
+    };
+    let rate = times.rate();
+    let name = if capture == Capture::Estimated && layout.program.is_empty() {
+        "landmarks"
+    } else {
+        "markers"
+    };
+    let mut all = vec![FileTrack::new(name, Content::Markers(markers))];
+    if let Some(curves) = curves(&layout.others, rows.others, times)? {
+        all.push(FileTrack::new("curves", Content::Curves(curves)));
+    }
+    for track in &mut all {
+        track.offset = offset;
+    }
+    let moments: Vec<(Instant, String)> = layout.events;
+    Ok(Tracks {
+        tracks: all,
+        events: rate.and_then(|rate| events("events", &moments, rate)),
+    })
+}
+
+/// Returns the columns that belong to no point as curves.
+fn curves(
+    titles: &[(String, usize)],
+    columns: Vec<Vec<Option<chereme_motion::column::Number>>>,
+    times: Times,
+) -> Result<Option<Curves>, Error> {
+    let names = unique(titles.iter().map(|(title, _)| title.as_str()), "column");
+    let held = names.into_iter().zip(columns);
+    let held = held.filter(|(_, numbers)| numbers.iter().any(Option::is_some));
+    let curves = held.map(|(name, numbers)| Curve {
+        name,
+        unit: String::new(),
+        values: Column::decimals(numbers),
+    });
+    let curves: Vec<Curve> = curves.collect();
+    if curves.is_empty() {
+        return Ok(None);
+    }
+    let curves = Curves::new(times, curves).map_err(|error| Error::Track(error.to_string()))?;
+    Ok(Some(curves))
+}
+
+/// Returns the groups and names of the points, each pair once.
+fn names(layout: &Layout, findings: &mut Findings) -> Vec<(String, String)> {
+    let whole = |point: &rows::Place| match (point.group.as_str(), point.name.as_str()) {
+        ("", name) => name.to_owned(),
+        (_, "") => String::new(),
+        (group, name) => format!("{group}:{name}"),
+    };
+    let given: Vec<String> = layout.points.iter().map(whole).collect();
+    let made = unique(given.iter().map(String::as_str), "marker");
+    let points = layout.points.iter().zip(&given).zip(made);
+    let named = points.map(|((point, given), made)| {
+        if *given == made {
+            return (point.group.clone(), point.name.clone());
+        }
+        let (kind, text) = match given.is_empty() {
+            true => (
+                "markers without a label",
+                format!("a marker has no label; it is {made:?} here"),
+            ),
+            false => (
+                "repeated labels",
+                format!("the label {given:?} occurs again; it is {made:?} here"),
+            ),
+        };
+        findings.add(kind, || Finding::note(layout.line, text));
+        let name = match made.strip_prefix(&format!("{}:", point.group)) {
+            Some(name) if !point.group.is_empty() => name.to_owned(),
+            _ => made,
+        };
+        (point.group.clone(), name)
+    });
+    named.collect()
+}

@@ -1,0 +1,226 @@
+//! Tables with one row of titles, which name a point and its axis: what people's own scripts write.
+
+use super::Error;
+use super::lines::{Lines, cells, delimiter};
+use super::rows::{COLUMNS, Layout, number};
+use super::titles::{self, Named};
+use crate::curves::{TimeUnit, unit_of_time};
+use crate::faces::System;
+use crate::finding::Finding;
+use crate::tally::Findings;
+
+/// The first rows whose cells are looked at.
+const LOOKED_AT: usize = 20;
+
+/// The titles of a table.
+struct Titles<'t> {
+    line: u64,
+    delimiter: char,
+    all: Vec<&'t str>,
+    named: Named,
+    frame: Option<usize>,
+    time: Option<(usize, TimeUnit)>,
+}
+
+/// Returns the titles of a table: its first line that is neither blank nor a comment.
+fn titles<'t>(first: &[(u64, &'t str)]) -> Option<Titles<'t>> {
+    let is_comment = |line: &str| {
+        line.starts_with('#')
+            && !line[1..]
+                .trim_start()
+                .to_lowercase()
+                .starts_with(['f', 't'])
+    };
+    let (line, text) = *first.iter().find(|(_, line)| !is_comment(line))?;
+    let delimiter = delimiter(text);
+    let all = cells(text.trim_start_matches('#'), delimiter);
+    if all.len() > COLUMNS {
+        return None;
+    }
+    let named = titles::points(&all);
+    let free = |at: &usize| !named.used.contains(at);
+    let unit = |at: usize| Some((at, unit_of_time(all[at])?));
+    let time = (0..all.len()).filter(free).find_map(unit);
+    let is_frame = |at: &usize| free(at) && counts_frames(all[*at], *at);
+    let frame = (0..all.len()).find(is_frame);
+    Some(Titles {
+        line,
+        delimiter,
+        named,
+        frame,
+        time,
+        all,
+    })
+}
+
+/// Returns whether a title is that of numbers of frames; the first column of a table may have none.
+fn counts_frames(title: &str, at: usize) -> bool {
+    let plain: String = title
+        .to_lowercase()
+        .chars()
+        .filter(|it| it.is_alphanumeric())
+        .collect();
+    let known = [
+        "frame",
+        "frames",
+        "fnum",
+        "framenumber",
+        "frameno",
+        "framenum",
+        "frameid",
+        "frameidx",
+        "frameindex",
+        "index",
+        "image",
+    ];
+    known.contains(&plain.as_str()) || title.is_empty() && at == 0 || plain == "unnamed0"
+}
+
+/// Returns whether a table that begins with these lines holds points: most of its columns are points, and their cells
+/// numbers.
+pub(super) fn begins(lines: &Lines<'_>) -> bool {
+    let first = lines.first(LOOKED_AT + 5);
+    let Some(titles) = titles(&first) else {
+        return false;
+    };
+    let (named, width) = (&titles.named, titles.all.len());
+    let is_face = System::of_names(titles.all.iter().copied()).is_some();
+    if named.points.is_empty() || is_face || width < 3 {
+        return false;
+    }
+    let mut rows = first.iter().filter(|(line, _)| *line > titles.line);
+    let mut rows: Vec<(u64, Vec<&str>)> = rows
+        .by_ref()
+        .map(|(line, text)| (*line, cells(text, titles.delimiter)))
+        .collect();
+    if !lines.is_whole && rows.len() > 1 {
+        rows.pop();
+    }
+    let has_commas = titles.delimiter != ',';
+    let read = |line: u64, row: &[&str], at: usize| {
+        number(row.get(at).copied().unwrap_or_default(), line, has_commas)
+    };
+    let of_points = named.points.iter().flat_map(|it| &it.axes);
+    let of_points: Vec<usize> = of_points.copied().collect();
+    let is_number =
+        |(line, row): &(u64, Vec<&str>)| of_points.iter().all(|at| read(*line, row, *at).is_ok());
+    let has_number = |(line, row): &(u64, Vec<&str>)| {
+        of_points
+            .iter()
+            .any(|at| matches!(read(*line, row, *at), Ok(Some(_))))
+    };
+    // The first rows of a capture may be gaps alone.
+    let is_timed = titles.time.is_some() || titles.frame.is_some();
+    if !rows.iter().all(is_number) || !is_timed && !rows.iter().any(has_number) {
+        return false;
+    }
+    let clocks = usize::from(titles.frame.is_some()) + usize::from(titles.time.is_some());
+    let others = width - clocks - named.used.len().min(width - clocks);
+    let is_text = |at: &usize| {
+        rows.iter()
+            .any(|(line, row)| read(*line, row, *at).is_err())
+    };
+    let texts = (0..width).filter(is_text).count();
+    // A sheet of two numbers with a text in each row is no movement.
+    let least = if named.points[0].axes.len() == 3 {
+        1
+    } else {
+        2
+    };
+    let is_clear = clocks > 0 || named.quality.is_some() || named.points.len() > least;
+    let fits = match texts {
+        0 => others <= named.used.len(),
+        _ => 3 * others <= named.used.len(),
+    };
+    fits && (is_clear || texts == 0 && least == 1)
+}
+
+pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layout, Error> {
+    let first = lines.first(LOOKED_AT);
+    let wide = first
+        .iter()
+        .any(|(_, line)| cells(line, delimiter(line)).len() > COLUMNS);
+    let titles = titles(&first).ok_or(if wide {
+        Error::Columns(COLUMNS)
+    } else {
+        Error::Empty
+    })?;
+    if titles.named.points.is_empty() {
+        return Err(Error::Unknown);
+    }
+    long(&titles, &first)?;
+    let taken = |at: &usize| {
+        titles.named.used.contains(at)
+            || titles.frame == Some(*at)
+            || titles.time.is_some_and(|(time, _)| time == *at)
+    };
+    let rows: Vec<(u64, Vec<&str>)> = first
+        .iter()
+        .filter(|(line, _)| *line > titles.line)
+        .map(|(line, text)| (*line, cells(text, titles.delimiter)))
+        .collect();
+    let is_text = |at: usize| {
+        let cell = |row: &[&'_ str]| row.get(at).copied().unwrap_or_default().to_owned();
+        rows.iter()
+            .any(|(line, row)| number(&cell(row), *line, titles.delimiter != ',').is_err())
+    };
+    let free: Vec<usize> = (0..titles.all.len()).filter(|at| !taken(at)).collect();
+    let (texts, others): (Vec<usize>, Vec<usize>) = free.into_iter().partition(|at| is_text(*at));
+    if !texts.is_empty() {
+        let named: Vec<String> = texts.iter().map(|at| titles.all[*at].to_owned()).collect();
+        let text = format!(
+            "columns of text are left out: {}",
+            crate::table::listed(&named)
+        );
+        findings.push(Finding::warning(titles.line, text));
+    }
+    let others = others.into_iter().map(|at| (titles.all[at].to_owned(), at));
+    Ok(Layout {
+        line: titles.line,
+        rows: (titles.line + 1, None),
+        delimiter: titles.delimiter,
+        width: titles.all.len(),
+        frame: titles.frame,
+        time: titles.time,
+        others: others.collect(),
+        quality: titles.named.quality,
+        unit: titles.named.unit,
+        pixels: titles.named.pixels,
+        points: titles.named.points,
+        ..Layout::default()
+    })
+}
+
+/// Refuses a table with a row for each point of a frame.
+fn long(titles: &Titles<'_>, first: &[(u64, &str)]) -> Result<(), Error> {
+    const NAMES: [&str; 8] = [
+        "marker", "landmark", "joint", "keypoint", "bodypart", "point", "label", "name",
+    ];
+    let names = |title: &str| NAMES.iter().any(|name| title.to_lowercase().contains(name));
+    let column = titles
+        .all
+        .iter()
+        .enumerate()
+        .find(|(at, title)| names(title) && !titles.named.used.contains(at));
+    let (Some((_, column)), Some(frame)) = (column, titles.frame) else {
+        return Ok(());
+    };
+    let rows = first.iter().filter(|(line, _)| *line > titles.line);
+    let frames: Vec<&str> = rows
+        .map(|(_, text)| {
+            cells(text, titles.delimiter)
+                .get(frame)
+                .copied()
+                .unwrap_or_default()
+        })
+        .collect();
+    let repeats = frames
+        .windows(2)
+        .any(|pair| pair[0] == pair[1] && !pair[0].is_empty());
+    match repeats && titles.named.points.len() == 1 {
+        true => Err(Error::Long {
+            column: (*column).to_owned(),
+        }),
+        false => Ok(()),
+    }
+}
