@@ -94,7 +94,8 @@ pub(crate) struct Args {
     /// frames a second. Tracks of a recording with known times of day are aligned by them
     #[arg(long, value_name = "TIMECODE", value_parser = timecode)]
     timecode: Option<chereme_motion::Instant>,
-    /// The frame rate of points from film that do not state it, in frames per second, such as 50 or 30000/1001
+    /// The frame rate of points from film and of tables of markers that do not state it, in frames per second, such as 50
+    /// or 30000/1001
     #[arg(long, value_name = "RATE", value_parser = rate)]
     rate: Option<chereme_motion::Rate>,
 }

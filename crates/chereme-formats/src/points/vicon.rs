@@ -35,13 +35,9 @@ pub(super) fn begins(lines: &Lines<'_>) -> bool {
         let mut cells = line
             .split([',', ';', '\t'])
             .map(|it| it.trim_matches([' ', '"']));
-        let frame = cells
-            .next()
-            .is_some_and(|it| it.eq_ignore_ascii_case("frame"));
-        frame
-            && cells
-                .next()
-                .is_some_and(|it| it.to_lowercase().replace(' ', "") == "subframe")
+        let first = cells.next().unwrap_or_default();
+        let second = cells.next().unwrap_or_default().to_lowercase();
+        counts(first) && (second.replace(' ', "") == "subframe" || second == "x")
     };
     let known = section(title).is_some_and(|it| SECTIONS.contains(&it.to_lowercase().as_str()));
     let is_event = |line: &str| line.to_lowercase().starts_with("subject,context");
@@ -58,13 +54,20 @@ fn section(line: &str) -> Option<&str> {
     (has_one && bare.parse::<f64>().is_err() && !bare.is_empty()).then_some(bare)
 }
 
-/// Returns the rate of a line that holds nothing else.
+/// Returns the rate of a line that holds nothing else but its unit.
 fn rate(line: &str) -> Option<f64> {
-    let bare = line
-        .trim_end_matches([',', ';', '\t', ' '])
-        .trim_matches([' ', '"']);
+    let bare = line.trim_end_matches([',', ';', '\t', ' ', '"']);
+    let bare = bare.strip_suffix("Hz").unwrap_or(bare);
+    let bare = bare.trim_matches([',', ';', '\t', ' ', '"']);
     let rate = bare.replacen(',', ".", 1).parse::<f64>().ok()?;
     (rate.is_finite() && rate > 0.0).then_some(rate)
+}
+
+/// Returns whether a title is that of the numbers of frames; old versions call them fields.
+fn counts(title: &str) -> bool {
+    ["frame", "field #", "field"]
+        .iter()
+        .any(|word| title.eq_ignore_ascii_case(word))
 }
 
 pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layout, Error> {
@@ -131,7 +134,7 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
         .find(|it| [',', ';', '\t'].contains(it))
         .unwrap_or(',');
     let (names, titles) = (cells(names, delimiter), cells(titles, delimiter));
-    if !titles[0].eq_ignore_ascii_case("frame") {
+    if !counts(titles[0]) {
         return Err(Error::Missing("axes, which begins with Frame"));
     }
     let mut unit = None;

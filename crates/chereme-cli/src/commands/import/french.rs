@@ -79,8 +79,8 @@ pub(in crate::commands) const WORDS: Words = Words {
             "L’heure à laquelle commencent les pistes des fichiers, s’ils ne la donnent pas : 12:34:56:07, ou 12:34:56:07@25 pour 25 images par seconde. Les pistes d’un enregistrement dont les heures sont connues sont calées sur elles",
         ),
         (
-            "The frame rate of points from film that do not state it, in frames per second, such as 50 or 30000/1001",
-            "La cadence des points d’un film qui ne la donnent pas, en images par seconde, comme 50 ou 30000/1001",
+            "The frame rate of points from film and of tables of markers that do not state it, in frames per second, such as 50 or 30000/1001",
+            "La cadence des points d’un film et des tables de marqueurs qui ne la donnent pas, en images par seconde, comme 50 ou 30000/1001",
         ),
         (
             "Files of the same name in one folder become one recording, and so do files with overlapping timecodes; files of the same name in two folders become two recordings, except for annotations that fit into a take of their name. A film is linked to the recording with its name, or whose .eaf names it. A line of HamNoSys holds the gloss, a tab, and the symbols. The report shows how each file was interpreted. Options override this, also later: --map gives an imported file other tiers or columns. A corpus that does not exist yet is created. If a file cannot be read, the others are imported.",

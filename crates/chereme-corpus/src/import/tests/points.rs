@@ -7,7 +7,8 @@ use chereme_motion::Rate;
 use super::*;
 use crate::track::TrackKind;
 
-const WRIST: &str = "time,LWRA_x,LWRA_y,LWRA_z\n0.00,1.50,900,3\n0.01,1.60,,3\n0.02,1.70,901,3.000\n";
+const WRIST: &str =
+    "time,LWRA_x,LWRA_y,LWRA_z\n0.00,1.50,900,3\n0.01,1.60,,3\n0.02,1.70,901,3.000\n";
 const NEXUS: &str = "Trajectories\n100\n,,Anna:LWRA,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1.50,900,3\n2,0,1.60,,\n";
 
 /// Returns the kinds of tracks that a file becomes, or its status.
@@ -30,17 +31,34 @@ fn tables_of_points_become_markers_and_others_stay_what_they_are() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
     let face = "Timecode,BlendShapeCount,JawOpen\n00:00:00:00.0,61,0.25\n00:00:00:01.0,61,0.5\n";
+    let tabs = NEXUS.replace(',', "\t");
     for (name, text, expected) in [
         ("wrist.csv", WRIST, "markers"),
         ("nexus.csv", NEXUS, "markers"),
-        ("nexus2.txt", NEXUS, "markers"),
-        ("force.csv", "time,Fx,Fy,Fz\n0,1,2,3\n0.01,1,2,3\n", "curves"),
+        ("tabs.txt", tabs.as_str(), "markers"),
+        (
+            "force.csv",
+            "time,Fx,Fy,Fz\n0,1,2,3\n0.01,1,2,3\n",
+            "curves",
+        ),
         ("face.csv", face, "curves"),
-        ("shapes.csv", "time,jawOpen,eye_x,eye_y\n0,0.1,2,3\n0.01,0.1,2,3\n", "curves"),
+        (
+            "shapes.csv",
+            "time,jawOpen,eye_x,eye_y\n0,0.1,2,3\n0.01,0.1,2,3\n",
+            "curves",
+        ),
         ("words.csv", "gloss,x,y\nBOL,1,2\nCHAT,3,4\n", "Imported"),
-        ("tiers.csv", "tier,begin,end,value\nGloss,0.5,1.5,BOL\n", "Imported"),
+        (
+            "tiers.csv",
+            "tier,begin,end,value\nGloss,0.5,1.5,BOL\n",
+            "Imported",
+        ),
     ] {
-        assert_eq!(kinds(&mut corpus, &desk.file(name, text)), expected, "{name}");
+        assert_eq!(
+            kinds(&mut corpus, &desk.file(name, text)),
+            expected,
+            "{name}"
+        );
     }
     assert_whole(&mut corpus);
 }
@@ -61,7 +79,10 @@ fn shared_tables_of_other_things_are_no_points() {
         ("phonology/ngt_lexicon.tsv", "Imported"),
         ("annotation/eaf/neocl-speach/test.eaf.tsv", "Refused"),
         ("notation/hamnosys/lingpy-pysign/test-signs.tsv", "Imported"),
-        ("notation/hamnosys/hearai-parse-hamnosys/hamnosys_example.txt", "Imported"),
+        (
+            "notation/hamnosys/hearai-parse-hamnosys/hamnosys_example.txt",
+            "Imported",
+        ),
     ] {
         assert_eq!(kinds(&mut corpus, &data.join(file)), expected, "{file}");
     }
