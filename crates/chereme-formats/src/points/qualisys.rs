@@ -49,7 +49,7 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
                     .and_then(|it| it.replacen(',', ".", 1).parse().ok())
             }
             "EVENT" => events.extend(event(&cells)),
-            _ if is_number(&key) || key.is_empty() && cells.iter().any(|it| is_number(&it)) => {
+            _ if is_number(&key) || key.is_empty() && cells.iter().any(is_number) => {
                 begin = Some((line, cells.len()));
                 break;
             }
@@ -111,7 +111,7 @@ fn event(cells: &[&str]) -> Option<(Instant, String)> {
         return None;
     };
     let seconds: f64 = time.replacen(',', ".", 1).parse().ok()?;
-    let is_sound = seconds.is_finite() && seconds >= 0.0 && seconds < crate::timecode::DAY;
+    let is_sound = (0.0..crate::timecode::DAY).contains(&seconds);
     is_sound.then(|| (Instant::from_seconds(seconds), (*name).to_owned()))
 }
 

@@ -187,7 +187,7 @@ fn nexus_gives_its_trajectories_and_names_its_other_sections() {
 }
 
 #[test]
-fn qualisys_has_frames_and_times_or_none_and_three_ways_to_write_a_gap() {
+fn qualisys_has_frames_and_times_or_none_and_three_forms_of_a_gap() {
     let (tracks, findings) = table(QUALISYS);
     let (expected, _) = markers(QUALISYS);
     assert_eq!(labels(&expected), [("", "x_HeadL"), ("", "x_ToeR")]);
