@@ -185,6 +185,7 @@ impl Ask<'_> {
             gloss: material.gloss.clone(),
             handedness: material.handedness,
             held: material.held.clone(),
+            body: self.sources.performer(&material.address)?,
         };
         self.put(slot, input);
         let at = slot.at(self.path);

@@ -8,7 +8,7 @@ use crate::contact::{self, Contacts};
 use crate::cue;
 use crate::draft::{DraftPart, Kept};
 use crate::error::{Cause, MakeError};
-use crate::ops::notated::Written;
+use crate::ops::notated::{self, Written};
 use crate::ops::{Done, point, spell, then};
 use crate::outcome::{ChannelReport, Generated, Report, StepReport};
 use crate::recipe::*;
@@ -293,7 +293,10 @@ impl<'a> Evaluator<'a> {
                     clip.frames(),
                     clip.rate()
                 );
-                (Work::of(material), vec![did].into())
+                let body = given.need(&SIGN)?.body.as_ref();
+                let body = body.map(|body| notated::performed_by(&body.address));
+                let did: Vec<String> = std::iter::once(did).chain(body).collect();
+                (Work::of(material), did.into())
             }
             Node::Spell(settings) => spell::generate(settings, &mut given)?,
             Node::Point(settings) => point::generate(settings, &mut given)?,

@@ -89,8 +89,8 @@ pub use outcome::{
 pub use poses::{Exact, HandPose, PoseOrigin};
 pub use recipe::Recipe;
 pub use resolve::{
-    ExpressionInput, Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved, resolve,
-    restore,
+    BodyInput, ExpressionInput, Input, Inputs, LetterInput, MaterialInput, PlaceInput, Resolved,
+    resolve, restore,
 };
 pub use sources::{
     Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, Letter, LetterStroke,

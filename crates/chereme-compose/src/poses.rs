@@ -25,6 +25,20 @@ pub struct HandPose {
     pub exact: Option<Exact>,
 }
 
+impl HandPose {
+    /// Returns the address of the sign that shows the posture; `None` if it is the inventory's own.
+    #[must_use]
+    pub fn giver(&self) -> Option<&str> {
+        match &self.origin {
+            PoseOrigin::Named(sign)
+            | PoseOrigin::SameSigner(sign)
+            | PoseOrigin::OtherSigner(sign)
+            | PoseOrigin::Neighbour { sign, .. } => Some(sign),
+            PoseOrigin::Inventory(_) => None,
+        }
+    }
+}
+
 /// Local rotations of the joints below a wrist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

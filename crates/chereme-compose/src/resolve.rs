@@ -95,6 +95,26 @@ pub enum Input {
     Expression(ExpressionInput),
 }
 
+impl Input {
+    /// Returns the addresses of the signs that gave postures or a place, but no movement.
+    #[must_use]
+    pub fn givers(&self) -> Vec<&str> {
+        match self {
+            Self::Poses(poses) => poses.iter().filter_map(HandPose::giver).collect(),
+            Self::Letters(letters) => {
+                let poses = letters.iter().map(|letter| &letter.pose);
+                poses.filter_map(HandPose::giver).collect()
+            }
+            Self::Place(place) => {
+                let is_sign = ["token:", "recording:"];
+                let sign = is_sign.iter().any(|it| place.from.starts_with(it));
+                sign.then_some(place.from.as_str()).into_iter().collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+}
+
 /// The expression of the face that was found for a recipe.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -119,6 +139,19 @@ pub struct MaterialInput {
     pub handedness: Handedness,
     /// Its component values.
     pub held: Vec<HeldValue>,
+    /// The body that performs it, if it is a notation.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub body: Option<BodyInput>,
+}
+
+/// The body that was found for a notation.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BodyInput {
+    /// Its unambiguous address.
+    pub address: String,
+    /// The hash of its posture.
+    pub hash: String,
 }
 
 /// The place that was found for a recipe.

@@ -14,6 +14,7 @@ use crate::cue::CuePhases;
 use crate::error::Meant;
 use crate::language::Language;
 use crate::outcome::Curve;
+use crate::resolve::BodyInput;
 
 /// The source of movement, values and examples for recipes; a corpus implements it.
 ///
@@ -26,6 +27,15 @@ pub trait Sources {
     /// [`SourceError::Missing`] if nothing has that address, [`SourceError::Ambiguous`] if several things have it,
     /// [`SourceError::NoMovement`] for a lexicon entry without movement.
     fn material(&self, address: &str) -> Result<Material, SourceError>;
+
+    /// Returns the body that performs the movement at an address of [`material`](Self::material), if that is a notation,
+    /// which has no body of its own.
+    ///
+    /// # Errors
+    /// [`SourceError`] if the corpus cannot be read.
+    fn performer(&self, _address: &str) -> Result<Option<BodyInput>, SourceError> {
+        Ok(None)
+    }
 
     /// Returns a body at rest, for movement without a recording: one or more frames of a neutral posture of the signer
     /// (an address), or of one that the corpus chooses.

@@ -1,5 +1,7 @@
 //! The consent of signers: who may see their movement, its annotation, and signs made from it.
 
+mod unnamed;
+
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::str::FromStr;
@@ -15,6 +17,7 @@ use crate::db::recordings::RecordingRow;
 use crate::db::{consents, edits, recordings};
 use crate::error::{Error, Result};
 use crate::merge;
+use crate::sources::notation::OWN_BODY;
 
 /// The people who may see something, from the fewest to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -377,7 +380,7 @@ impl Permissions {
             named.entry(recording).or_default().insert(name);
         }
         let mut inputs: BTreeMap<i64, Option<BTreeSet<i64>>> = BTreeMap::new();
-        for (made, input, token) in consents::inputs(connection)? {
+        for (made, input, token) in consents::inputs(connection, OWN_BODY)? {
             let all = inputs.entry(made).or_insert_with(|| Some(BTreeSet::new()));
             match input {
                 Some(input) => drop(all.as_mut().map(|it| it.insert(input))),
@@ -385,6 +388,8 @@ impl Permissions {
                 None => *all = None,
             }
         }
+        let rows = recordings::recordings(connection)?;
+        unnamed::complete(connection, &rows, &mut inputs)?;
         let doubts = doubts(connection)?;
         // A participant written in other letters is the same person.
         let mut by_name: BTreeMap<String, Vec<i64>> = BTreeMap::new();
@@ -394,7 +399,7 @@ impl Permissions {
         let mut refused = BTreeSet::new();
         let (mut agreed, mut personal) = (BTreeMap::new(), BTreeSet::new());
         let mut all = BTreeMap::new();
-        for row in recordings::recordings(connection)? {
+        for row in rows {
             let mut people: Vec<Option<i64>> = row.signer_id.map(Some).into_iter().collect();
             for name in named.get(&row.id).into_iter().flatten() {
                 match by_name.get(&fold(name)) {

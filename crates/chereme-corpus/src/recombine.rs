@@ -323,11 +323,8 @@ fn source_of(
     resolved: &Resolved,
     made: &Generated,
 ) -> Result<Option<(Hierarchy, Convention)>> {
-    for input in resolved.inputs().0.values() {
-        let Input::Material(material) = input else {
-            continue;
-        };
-        let Ok(stretch) = address::stretch(connection, &material.address.parse()?) else {
+    for (address, _) in moving_inputs(resolved) {
+        let Ok(stretch) = address::stretch(connection, &address.parse()?) else {
             continue;
         };
         // A recording that has only a face is performed by the program's own body.
@@ -602,15 +599,27 @@ pub(crate) fn engine() -> String {
 }
 
 fn store_inputs(connection: &Connection, recipe: i64, resolved: &Resolved) -> Result<()> {
-    for input in resolved.inputs().0.values() {
-        let Input::Material(material) = input else {
-            continue;
-        };
-        let (address, hash) = (&material.address, &material.hash);
+    let moving = moving_inputs(resolved).map(|(address, hash)| (address.as_str(), hash.as_str()));
+    let given = resolved.inputs().0.values().flat_map(Input::givers);
+    for (address, hash) in moving.chain(given.map(|address| (address, ""))) {
         let (source, token) = source_rows(connection, address)?;
         recipes::insert_input(connection, recipe, address, source, token, hash)?;
     }
     Ok(())
+}
+
+/// Returns the addresses and hashes of all movement that a recipe uses: its sources, and the bodies that perform
+/// notations.
+fn moving_inputs(resolved: &Resolved) -> impl Iterator<Item = (&String, &String)> {
+    let inputs = resolved.inputs().0.values();
+    let materials = inputs.filter_map(|input| match input {
+        Input::Material(material) => Some(material),
+        _ => None,
+    });
+    materials.flat_map(|it| {
+        let body = it.body.as_ref().map(|body| (&body.address, &body.hash));
+        std::iter::once((&it.address, &it.hash)).chain(body)
+    })
 }
 
 /// Returns the recording and the token at an input's address.

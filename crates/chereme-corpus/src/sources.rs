@@ -4,8 +4,8 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 use chereme_compose::{
-    CuePhases, Example, ExpressionSource, HeldValue, Language, LearnedProfile, Letter, Material,
-    SourceError, Sources, SpellingTimes, Value,
+    BodyInput, CuePhases, Example, ExpressionSource, HeldValue, Language, LearnedProfile, Letter,
+    Material, SourceError, Sources, SpellingTimes, Value,
 };
 use chereme_motion::{Instant, Side, Span};
 use chereme_sign::Inventory;
@@ -245,6 +245,17 @@ impl Sources for CorpusSources<'_> {
                 .animated(address)?
                 .ok_or_else(|| missing(self, address, &error)),
         }
+    }
+
+    fn performer(&self, address: &str) -> std::result::Result<Option<BodyInput>, SourceError> {
+        if self.stretch(address).is_ok() || self.notation_of(address).is_err() {
+            return Ok(None);
+        }
+        let body = self.stage(None)?;
+        Ok(Some(BodyInput {
+            address: body.address,
+            hash: body.hash,
+        }))
     }
 
     fn notation(&self, name: &str) -> std::result::Result<Vec<Notated>, SourceError> {

@@ -100,6 +100,7 @@ impl Written {
         let did = steps.flat_map(|step| step.did.iter().map(|did| format!("{} {did}", step.step)));
         let mut did: Vec<String> = did.collect();
         did.extend(spoken.iter().flat_map(Language::describe));
+        did.push(performed_by(&stage.address));
         let residual = made.report.steps.iter().filter_map(|step| step.residual);
         let residual = residual.fold(0.0, f64::max);
         let hands = made.report.steps.first().map(|step| step.hands.clone());
@@ -111,4 +112,9 @@ impl Written {
         };
         Ok((Work::made(made, given.text), done))
     }
+}
+
+/// Describes the body that performs a notation.
+pub(crate) fn performed_by(address: &str) -> String {
+    format!("the notation is performed by the body of {address}")
 }

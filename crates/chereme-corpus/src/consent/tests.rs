@@ -1,3 +1,5 @@
+mod bodies;
+
 use std::path::PathBuf;
 
 use proptest::prelude::*;

@@ -71,13 +71,48 @@ pub(crate) fn participants(connection: &Connection) -> Result<Vec<(i64, String)>
 }
 
 /// Returns the inputs of recipes: the generated recording, and the recording that it takes movement from; without one
-/// if the input is an entry of a table, or was deleted. The last is whether that is known: a token stands for the input,
-/// or the recipe has none.
-pub(crate) fn inputs(connection: &Connection) -> Result<Vec<(i64, Option<i64>, bool)>> {
+/// if the input is an entry of a table, the body at the address `own`, or was deleted. The last is whether that is known:
+/// a token or `own` stands for the input, or the recipe has none.
+pub(crate) fn inputs(connection: &Connection, own: &str) -> Result<Vec<(i64, Option<i64>, bool)>> {
     let mut statement = connection.prepare_cached(
-        "SELECT p.recording_id, i.recording_id, i.id IS NULL OR i.token_id IS NOT NULL
+        "SELECT p.recording_id, i.recording_id,
+             i.id IS NULL OR i.token_id IS NOT NULL OR i.address = ?1
          FROM recipe p LEFT JOIN recipe_input i ON p.id = i.recipe_id ORDER BY p.recording_id, i.id",
     )?;
-    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    let rows = statement.query_map([own], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the generated recordings whose recipes do not name the body that moves: they have no input, or a notation
+/// that was stored without its body, as earlier versions of the program did.
+pub(crate) fn without_body(connection: &Connection) -> Result<Vec<i64>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT p.recording_id FROM recipe p
+         LEFT JOIN recipe_input i ON i.recipe_id = p.id
+         WHERE i.id IS NULL OR (i.recording_id IS NULL AND i.token_id IS NOT NULL
+             AND i.hash <> '' AND NOT EXISTS (
+             SELECT 1 FROM json_each(p.document, '$.inputs') it
+             WHERE it.value ->> '$.material.address' = i.address
+                 AND it.value ->> '$.material.body' IS NOT NULL))
+         ORDER BY p.recording_id",
+    )?;
+    let rows = statement.query_map([], |row| row.get(0))?;
+    Ok(rows.collect::<rusqlite::Result<_>>()?)
+}
+
+/// Returns the generated recordings whose documents name tokens that gave a posture or a place, where the inputs of
+/// the recipe do not name them, as earlier versions of the program did: the generated recording, and that of the token if it
+/// is still there.
+pub(crate) fn unnamed_givers(connection: &Connection) -> Result<Vec<(i64, Option<i64>)>> {
+    let mut statement = connection.prepare_cached(
+        "SELECT DISTINCT p.recording_id, t.recording_id FROM recipe p, json_tree(p.document, '$.inputs') it
+         LEFT JOIN token t ON t.id = CAST(substr(it.atom, 7) AS INTEGER)
+         WHERE it.type = 'text' AND it.atom LIKE 'token:%'
+             AND it.key IN ('named', 'same-signer', 'other-signer', 'sign', 'from')
+             AND (t.id IS NULL OR t.recording_id IS NOT NULL)
+             AND NOT EXISTS (SELECT 1 FROM recipe_input i WHERE i.recipe_id = p.id AND i.hash = '')
+         ORDER BY 1, 2",
+    )?;
+    let rows = statement.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?;
     Ok(rows.collect::<rusqlite::Result<_>>()?)
 }

@@ -3,12 +3,12 @@
 use chereme_sign::TierRole;
 use std::collections::BTreeSet;
 
-use chereme_compose::{Generated, Input, Recipe, Resolved};
+use chereme_compose::{Generated, Recipe, Resolved};
 use rusqlite::Connection;
 
 use super::{
-    Recombination, recipe_row, recombination, signer_of, source_rows, store_inputs, store_movement,
-    store_notes,
+    Recombination, moving_inputs, recipe_row, recombination, signer_of, source_rows, store_inputs,
+    store_movement, store_notes,
 };
 use crate::Corpus;
 use crate::address::{self, Address};
@@ -116,10 +116,8 @@ fn refuse_circle(
     resolved: &Resolved,
 ) -> Result<()> {
     let mut next = Vec::new();
-    for input in resolved.inputs().0.values() {
-        if let Input::Material(material) = input {
-            next.extend(source_rows(connection, &material.address)?.0);
-        }
+    for (address, _) in moving_inputs(resolved) {
+        next.extend(source_rows(connection, address)?.0);
     }
     let mut seen = BTreeSet::new();
     while let Some(recording) = next.pop() {

@@ -76,7 +76,7 @@ impl CorpusSources<'_> {
         }
     }
 
-    fn notation_of(&self, name: &str) -> Result<Notation> {
+    pub(super) fn notation_of(&self, name: &str) -> Result<Notation> {
         notation::find(self.connection, &name.parse()?)
     }
 

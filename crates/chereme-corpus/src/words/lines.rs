@@ -249,6 +249,10 @@ pub(super) const GENERAL: &[(&str, &str)] = &[
         "{source} ({gloss}), {n} frames at {rate} fps",
         "{source} ({gloss}), {n} images à {rate} i/s",
     ),
+    (
+        "the notation is performed by the body of {address}",
+        "la notation est jouée par le corps de {address}",
+    ),
     ("{cm} cm left, {rest}", "{cm} cm à gauche, {rest}"),
     ("{cm} cm right, {rest}", "{cm} cm à droite, {rest}"),
     ("{cm} cm up, {rest}", "{cm} cm vers le haut, {rest}"),

@@ -12,11 +12,12 @@ use crate::consent::tests::{any_audience, corpus};
 use crate::db::{recordings, tiers};
 use crate::{Audience, ConsentChange, Name, RecordingChange, SignChange, unheard};
 
-/// Generated signs with their recipes: one from one recording, one from two, one from a generated one.
+/// Generated signs with their recipes: one from one recording, one from two, one from a generated one with
+/// the handshape of another.
 const MADE: [(&str, &str, &[&str]); 3] = [
     (
         "QZMADEZQ",
-        "QZSNAILZQ | configure right U",
+        "QZSNAILZQ | place both by up 2cm",
         &["qzrecsnailzq"],
     ),
     (
@@ -24,7 +25,11 @@ const MADE: [(&str, &str, &[&str]); 3] = [
         "QZBOWLZQ then QZSNAILZQ",
         &["qzrecbowlzq", "qzrecsnailzq"],
     ),
-    ("QZDEEPZQ", "QZMADEZQ | mirror", &["QZMADEZQ"]),
+    (
+        "QZDEEPZQ",
+        "QZMADEZQ | configure right from QZBOWLZQ",
+        &["QZMADEZQ", "qzrecbowlzq"],
+    ),
 ];
 /// Captured signs: the recording of the starter corpus, its new name, the signer, the gloss before and after.
 const CAPTURED: [(&str, &str, &str, &str, &str); 2] = [
