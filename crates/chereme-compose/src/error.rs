@@ -211,6 +211,16 @@ pub enum Cause {
         /// The length of the movement in seconds.
         length: f64,
     },
+    /// A path that no arm can travel in its time.
+    #[error("{:.0} cm in {time:.2} s is faster than any arm", length * 100.0)]
+    TooFast {
+        /// The length of the path or leg, in metres.
+        length: f64,
+        /// Its time, in seconds.
+        time: f64,
+        /// The time that it takes people, in seconds.
+        least: f64,
+    },
     /// Two pieces do not fit together: something would jump at the join.
     #[error("the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s")]
     Torn {
@@ -295,6 +305,10 @@ impl Cause {
             Self::Source(error) => return error.remedy(),
             Self::Utterance(error) => return Some(error.remedy()),
             Self::Notation(error) => return error.remedy().map(Remedy::from),
+            Self::TooFast { least, .. } => {
+                let least = least.max(0.01);
+                return Some(format!("leave the time out, or give it {least:.2} s or more").into());
+            }
             Self::TooFar { distance, arm, .. } => {
                 let nearer = (distance - arm) * 100.0;
                 return Some(format!("move it nearer by {nearer:.0} cm or more").into());

@@ -19,7 +19,7 @@ use crate::work::{Group, Work};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE: u32 = 22;
+pub const ENGINE: u32 = 23;
 
 /// Generates the movement of a recipe.
 ///
@@ -318,9 +318,17 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Done, Cause> {
         let mut given = self.given(path, text);
         let operator = step.operator();
+        let longer = operator.make_time(work)?;
         let touched = operator.contacts(work.handedness);
-        let mut touched = touched.map(|(carry, keep)| (self.touches(work), carry, keep));
+        let mut touched = touched.map(|(carry, keep)| {
+            let before = match longer {
+                Some(_) => contact::touches(work),
+                None => self.touches(work),
+            };
+            (before, carry, keep)
+        });
         let mut done = operator.apply(work, &mut given)?;
+        done.did.extend(longer);
         if let Some((before, carry, keep)) = &mut touched {
             let kept = contact::mend(work, before, *keep, text);
             done.did.extend(kept);

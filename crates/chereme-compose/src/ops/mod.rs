@@ -57,6 +57,12 @@ pub(crate) trait Operator: Display {
         Ok(())
     }
 
+    /// Makes the movement long enough for what the operator does with it, before contacts are looked for; returns a
+    /// description if it became longer.
+    fn make_time(&self, _work: &mut Work) -> Result<Option<String>, Cause> {
+        Ok(None)
+    }
+
     /// Changes the movement.
     fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause>;
 

@@ -10,7 +10,7 @@ use crate::course::Course;
 use crate::curve::Spline;
 use crate::error::Cause;
 use crate::ops::place::{self, describe_reach};
-use crate::ops::say;
+use crate::ops::{retime, say};
 use crate::recipe::{Leg, Solver};
 use crate::units::{Length, Seconds};
 use crate::work::{Columns, Group, Work};
@@ -37,7 +37,8 @@ pub struct Travel {
     /// The hands that travel.
     #[serde(default = "crate::recipe::dominant")]
     pub hand: Hands,
-    /// The legs, one after another; those without a time share the remaining time by their length.
+    /// The legs, one after another; those without a time share the remaining time by their length, no faster than people
+    /// sign. The sign becomes longer if it has less time than its path.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub path: Vec<Leg>,
     /// The points of a curve instead of legs: offsets from the hands' usual position to the left, up and forward.
@@ -53,6 +54,14 @@ pub struct Travel {
 
 /// The most points of a curve.
 const MOST_POINTS: usize = 64;
+/// The greatest mean speed, in metres per second, of a path whose time nobody states: the sign becomes longer instead.
+const PACE: f64 = 1.2;
+/// The greatest mean speeds along a stated leg or curve, in metres per second: beyond the first it is reported, beyond
+/// the second no arm can do it.
+const FASTEST: (f64, f64) = (1.6, 10.0);
+/// The warning about a time that a path does not have.
+const UNUSED: &str =
+    "the time after \"via\" is not used: legs and curves have their own, such as left 5cm in 0.2s";
 /// The learned courses along the legs.
 const VIA: Slot<LearnedProfile> = Slot::new("travel/via");
 
@@ -66,8 +75,11 @@ impl Syntax for Travel {
         ),
         examples: &[
             (
-                "travel right down 20cm then up 20cm in 0.4s",
-                Text::new("along a path", "le long d’un trajet"),
+                "travel right down 20cm in 0.4s then up 20cm in 0.4s",
+                Text::new(
+                    "along a path: each leg has its own time",
+                    "le long d’un trajet : chaque étape a son temps",
+                ),
             ),
             (
                 "travel right through 10cm,8cm,0cm then 20cm,0cm,0cm in 1s",
@@ -78,6 +90,19 @@ impl Syntax for Travel {
             ),
         ],
         messages: &[
+            Text::new(
+                "the sign became {to} s long instead of {from} s, so that the path has its time",
+                "le signe dure {to} s au lieu de {from} s, pour que le trajet ait son temps",
+            ),
+            Text::new(
+                UNUSED,
+                "le temps après \"via\" n’est pas utilisé : segments et courbes ont le leur, comme left 5cm in 0.2s",
+            ),
+            Text::new("the legs take {times}", "les étapes durent {times}"),
+            Text::new(
+                "{cm} cm in {time} s is faster than people sign",
+                "{cm} cm en {time} s, c’est plus vite qu’on ne signe",
+            ),
             Text::new("1 leg, {cm} cm in all", "1 étape, {cm} cm en tout"),
             Text::new("{n} legs, {cm} cm in all", "{n} étapes, {cm} cm en tout"),
             Text::new(
@@ -181,14 +206,131 @@ impl Operator for Travel {
         ask.course(&VIA, &self.via)
     }
 
+    fn make_time(&self, work: &mut Work) -> Result<Option<String>, Cause> {
+        let sides = self.hand.sides(work.handedness);
+        let frame = place::frame(work, sides)?;
+        let parts = self.parts(&frame);
+        for part in &parts {
+            part.check()?;
+        }
+        let needed = needed(&parts, duration(work));
+        if needed <= duration(work) + 1e-9 {
+            return Ok(None);
+        }
+        let step = work.rate.frame_time();
+        let frames = (needed / step - 1e-6).ceil() + 1.0;
+        let from = work.span().seconds();
+        retime::stretch(work, frames / work.frames as f64)?;
+        let to = work.span().seconds();
+        Ok(Some(format!(
+            "the sign became {to:.2} s long instead of {from:.2} s, so that the path has its time"
+        )))
+    }
+
     fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
         let course = given.course(&VIA, &self.via, Profile::MinimumJerk)?;
-        Ok(travel(work, self, &course.arms, given.text)?.into())
+        let sides = self.hand.sides(work.handedness);
+        let parts = self.parts(&place::frame(work, sides)?);
+        let warnings = parts.iter().filter_map(Part::warning).collect();
+        let mut done: Done = travel(work, self, &course.arms, given.text)?.into();
+        if parts.len() > 1 && parts.iter().any(|part| part.time.is_some()) {
+            let times = times(&parts, duration(work));
+            let times: Vec<String> = times.iter().map(|time| format!("{time:.2} s")).collect();
+            done.did.push(format!("the legs take {}", times.join(", ")));
+        }
+        done.warnings = warnings;
+        if self.via.time.is_some() {
+            done.warnings.push(UNUSED.to_owned());
+        }
+        Ok(done)
     }
 
     fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
         Some((Carry::Same, Keep::between(self.hand.sides(handedness))))
     }
+}
+
+/// A leg of a path, or a whole curve.
+struct Part {
+    /// Its length in metres.
+    length: f64,
+    /// Its stated time in seconds.
+    time: Option<f64>,
+}
+
+impl Part {
+    /// Returns its mean speed, if its time is stated.
+    fn speed(&self) -> Option<f64> {
+        let time = self.time?;
+        (self.length > STANDS).then(|| self.length / time.max(1e-9))
+    }
+
+    /// Fails if no arm is as fast as its stated time demands.
+    fn check(&self) -> Result<(), Cause> {
+        match self.speed() {
+            Some(speed) if speed > FASTEST.1 => Err(Cause::TooFast {
+                length: self.length,
+                time: self.time.unwrap_or_default(),
+                least: self.length / PACE,
+            }),
+            _ => Ok(()),
+        }
+    }
+
+    fn warning(&self) -> Option<String> {
+        let time = self.time.filter(|_| self.speed() > Some(FASTEST.0))?;
+        Some(format!(
+            "{:.0} cm in {time:.2} s is faster than people sign",
+            self.length * 100.0
+        ))
+    }
+}
+
+/// The length in metres below which a leg leaves the hand where it is.
+const STANDS: f64 = 1e-6;
+
+impl Travel {
+    fn parts(&self, frame: &Frame) -> Vec<Part> {
+        if let Some(curve) = curve(frame, &self.through) {
+            return vec![Part {
+                length: curve.length(),
+                time: self.time.map(|time| time.0),
+            }];
+        }
+        let legs = self.path.iter().map(|leg| Part {
+            length: leg.distance.metres(frame.arm).abs(),
+            time: leg.time.map(|time| time.0),
+        });
+        legs.collect()
+    }
+}
+
+/// Returns the time from the first to the last frame, in seconds.
+fn duration(work: &Work) -> f64 {
+    work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time()
+}
+
+/// Returns the time of each part; those without a stated time share what the stated ones leave of `total`, by length.
+fn times(parts: &[Part], total: f64) -> Vec<f64> {
+    let stated: f64 = parts.iter().filter_map(|part| part.time).sum();
+    let left = (total - stated).max(0.0);
+    let unstated = unstated(parts).max(1e-9);
+    let time = |part: &Part| part.time.unwrap_or(left * (part.length / unstated));
+    parts.iter().map(time).collect()
+}
+
+/// Returns the length of the parts without a stated time, in metres.
+fn unstated(parts: &[Part]) -> f64 {
+    let free = parts.iter().filter(|part| part.time.is_none());
+    free.map(|part| part.length).sum()
+}
+
+/// Returns the time that the whole path needs in a movement of `total` seconds: stated times as they are, the rest no
+/// faster than people sign.
+fn needed(parts: &[Part], total: f64) -> f64 {
+    let stated: f64 = parts.iter().filter_map(|part| part.time).sum();
+    let left = (total - stated).max(0.0);
+    stated + left.max(unstated(parts) / PACE)
 }
 
 /// Carries the hands along a path in addition to their own movement.
@@ -203,7 +345,10 @@ pub(crate) fn travel(
     let curve = curve(&frame, &settings.through);
     let displacements = match &curve {
         Some(curve) => along(work, curve, settings.time, course),
-        None => displacements(work, &frame, &settings.path, course),
+        None => {
+            let times = times(&settings.parts(&frame), duration(work));
+            displacements(work, &frame, &settings.path, &times, course)
+        }
     };
     let before = work.clone();
     let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
@@ -258,35 +403,24 @@ fn curve(frame: &Frame, through: &[[Length; 3]]) -> Option<Spline> {
 /// Returns the displacement of the hands along a curve at each frame; they stay at its end if the movement lasts
 /// longer.
 fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) -> Vec<DVec3> {
-    let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
-    let time = time.map_or(total, |time| time.0).max(1e-9);
+    let time = time.map_or(duration(work), |time| time.0).max(1e-9);
     let now = |f: usize| f as f64 * work.rate.frame_time();
     (0..work.frames)
         .map(|f| curve.at(course.share((now(f) / time).min(1.0))))
         .collect()
 }
 
-/// Returns the displacement of the hands along the path at each frame.
-///
-/// Legs without a time share the rest of the movement by their lengths.
-fn displacements(work: &Work, frame: &Frame, path: &[Leg], course: &Course) -> Vec<DVec3> {
-    let total = work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time();
-    let stated: f64 = path
-        .iter()
-        .filter_map(|leg| leg.time)
-        .map(|time| time.0)
-        .sum();
-    let unstated: f64 = path
-        .iter()
-        .filter(|leg| leg.time.is_none())
-        .map(|leg| leg.distance.metres(frame.arm).abs())
-        .sum();
-    let left = (total - stated).max(0.0);
+/// Returns the displacement of the hands along the path at each frame; the legs take these times.
+fn displacements(
+    work: &Work,
+    frame: &Frame,
+    path: &[Leg],
+    times: &[f64],
+    course: &Course,
+) -> Vec<DVec3> {
     let mut at = (0.0, DVec3::ZERO);
     let mut legs = Vec::with_capacity(path.len());
-    for leg in path {
-        let share = leg.distance.metres(frame.arm).abs() / unstated.max(1e-9);
-        let time = leg.time.map_or(left * share, |time| time.0);
+    for (leg, &time) in path.iter().zip(times) {
         legs.push((at.0, time, at.1, frame.leg(leg)));
         at = (at.0 + time, at.1 + frame.leg(leg));
     }

@@ -8,6 +8,7 @@ mod goldens;
 mod laws;
 mod notated;
 mod operators;
+mod paths;
 mod robust;
 mod said;
 mod values;

@@ -131,6 +131,14 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "le mouvement dure {length} s : il n’en reste rien",
     ),
     (
+        "{cm} cm in {time} s is faster than any arm",
+        "{cm} cm en {time} s, aucun bras n’est aussi rapide",
+    ),
+    (
+        "leave the time out, or give it {time} s or more",
+        "omettez le temps, ou donnez-lui {time} s ou plus",
+    ),
+    (
         "the two pieces do not meet: {what} would leap by {distance} m, at {speed} m/s",
         "les deux morceaux ne se rejoignent pas : {what} sauterait de {distance} m, à {speed} m/s",
     ),
