@@ -6,11 +6,12 @@ use chereme_motion::ends::{self, Ends};
 use chereme_motion::{Clip, Instant, Span};
 
 use crate::error::Cause;
+use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
 
-use chereme_sign::Handedness;
 use chereme_sign::words::Text;
+use chereme_sign::{Component, Handedness};
 use serde::{Deserialize, Serialize};
 
 use crate::answers::Given;
@@ -124,6 +125,10 @@ impl Syntax for Trim {
             ),
         )],
         messages: &[
+            Text::new(
+                "the movement from rest and back to it is left out: the phases of the sign are known",
+                "le mouvement depuis le repos et vers lui est laissé de côté : les phases du signe sont connues",
+            ),
             Text::new("left out {what}", "laissé de côté : {what}"),
             Text::new(
                 "the movement has no rest before or after it",
@@ -180,12 +185,54 @@ pub(crate) fn span(work: &mut Work, cut: &Cut, operator: &str) -> Result<Vec<Str
     Ok(did)
 }
 
+/// Returns the frames of a sign without the movement from rest to its first phase, and from its last one back to rest:
+/// only an end with rest whose phases are known is cut.
+pub(crate) fn signed(work: &Work) -> Result<Range<usize>, Cause> {
+    let all = 0..work.frames;
+    let Some(phases) = phases(work) else {
+        return Ok(all);
+    };
+    let channels = work.channels.clone();
+    let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
+    let active = ends::activity(&clip, &work.anatomy).unwrap_or(all);
+    Ok(between_rests(work, &active, &phases))
+}
+
+/// Returns the frames from the first phase of a hand to the end of the last one; `None` if no phase is known.
+fn phases(work: &Work) -> Option<Range<usize>> {
+    let about = About::Component(Component::Movement, Some("phase".to_owned()));
+    let notes = work.notes.iter().filter(|note| note.about == about);
+    let spans: Vec<Span> = notes.map(|note| note.span).collect();
+    let from = spans.iter().map(|span| span.start()).min()?;
+    let to = spans.iter().map(|span| span.end()).max()?;
+    let frames = work.rate.frames_in(Span::new(from, to).ok()?);
+    let frames = frames.start.min(work.frames)..frames.end.min(work.frames);
+    (!frames.is_empty()).then_some(frames)
+}
+
+/// Returns the frames of the phases at each end that has rest, and all frames at the other.
+fn between_rests(work: &Work, active: &Range<usize>, phases: &Range<usize>) -> Range<usize> {
+    let rests = (active.start > 0, active.end < work.frames);
+    let start = if rests.0 { phases.start } else { 0 };
+    let end = if rests.1 { phases.end } else { work.frames };
+    start..end
+}
+
 /// Keeps the active frames; a movement without rest stays unchanged.
 pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause> {
     let channels = work.channels.clone();
     let clip = Clip::new(work.skeleton.clone(), work.rate, channels)?;
     let odd = Ends::of(&clip, &work.anatomy);
-    let active = ends::activity(&clip, &work.anatomy).unwrap_or(odd.sound.clone());
+    let moving = ends::activity(&clip, &work.anatomy).unwrap_or(odd.sound.clone());
+    let signed = phases(work).map(|phases| between_rests(work, &moving, &phases));
+    let active = signed.map_or(moving.clone(), |signed| {
+        moving.start.max(signed.start)..moving.end.min(signed.end)
+    });
+    let active = if active.is_empty() {
+        moving.clone()
+    } else {
+        active
+    };
     let mut did: Vec<String> = odd
         .odd
         .iter()
@@ -196,6 +243,12 @@ pub(crate) fn trim(work: &mut Work, operator: &str) -> Result<Vec<String>, Cause
         return Ok(did);
     }
     did.push(describe(work, &active));
+    if active != moving {
+        did.push(
+            "the movement from rest and back to it is left out: the phases of the sign are known"
+                .to_owned(),
+        );
+    }
     keep(work, active, operator);
     Ok(did)
 }
@@ -213,6 +266,12 @@ fn describe(work: &Work, frames: &Range<usize>) -> String {
 }
 
 fn keep(work: &mut Work, frames: Range<usize>, operator: &str) {
+    keep_quietly(work, frames);
+    work.changed(Group::ALL, operator);
+}
+
+/// Keeps some frames, without a word about it in the sources of the channels.
+pub(crate) fn keep_quietly(work: &mut Work, frames: Range<usize>) {
     for channel in &mut work.channels {
         channel.rotations = channel.rotations[frames.clone()].to_vec();
         if let Some(places) = &mut channel.translations {
@@ -231,5 +290,4 @@ fn keep(work: &mut Work, frames: Range<usize>, operator: &str) {
         left.is_some()
     });
     work.frames = frames.len();
-    work.changed(Group::ALL, operator);
 }

@@ -8,7 +8,7 @@ use crate::contact::{self, Carry, Keep};
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::join::{self, Seam};
-use crate::ops::{Description, amplify, retime, say};
+use crate::ops::{Description, amplify, cut, retime, say};
 use crate::outcome::About;
 use crate::work::{Group, Work};
 use std::fmt::{self, Display, Formatter};
@@ -71,6 +71,10 @@ impl Syntax for Repeat {
             Text::new(
                 "{times} times, {gap} frames between",
                 "{times} fois, {gap} images entre deux",
+            ),
+            Text::new(
+                "the hands do not go back to rest between them",
+                "les mains ne reviennent pas au repos entre deux",
             ),
             Text::new(
                 "repetition {n} to {next}: {what}",
@@ -204,6 +208,7 @@ pub(crate) fn repeat(
         .collect();
     let mut residual: f64 = 0.0;
     let mut done = join::Done::default();
+    let (mut tail, mut rested) = (work.frames - cut::signed(work)?.end, false);
     for n in 1..times {
         let mut next = once.clone();
         if scale != 1.0 {
@@ -222,6 +227,13 @@ pub(crate) fn repeat(
         if scale != 1.0 || tempo != 1.0 {
             once = next.clone();
         }
+        let own = cut::signed(&next)?;
+        rested |= tail > 0 || own.start > 0;
+        let signed = work.frames - tail;
+        cut::keep_quietly(work, 0..signed);
+        tail = next.frames - own.end;
+        let all = next.frames;
+        cut::keep_quietly(&mut next, own.start..all);
         let seam = Seam::plain(work, gap);
         let what = format!("repetition {} to {}", n, n + 1);
         done.joins
@@ -233,6 +245,10 @@ pub(crate) fn repeat(
     }
     let times = format!("{times} times, {gap} frames between");
     done.did.insert(0, times);
+    if rested {
+        done.did
+            .push("the hands do not go back to rest between them".to_owned());
+    }
     if residual > 1e-3 {
         done.did.push(format!(
             "out of reach: a wrist stays {:.1} cm short",

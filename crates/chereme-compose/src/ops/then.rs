@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{ModelPose, Part, Side};
+use chereme_motion::{Interpolation, ModelPose, Part, Side};
 use chereme_sign::Component;
 
 use crate::course::Courses;
 use crate::error::Cause;
+use crate::ops::cut;
 use crate::ops::join::{self, Cut, Seam};
 use crate::ops::retarget;
 use crate::outcome::{About, Note};
@@ -42,19 +43,22 @@ pub(crate) fn then(
         done.work
     };
     retarget::resample(&mut next, work.rate);
+    let ends = without_rest(work, &mut next)?;
     face_alike(work, &mut next);
-    let seam = seam(work, &next, time);
+    let seam = seam(work, &next, time, &ends);
+    if ends.returned > 0 {
+        did.push("the first sign's return to rest is left out".to_owned());
+    }
+    if ends.approached > 0 {
+        did.push("the second sign's movement from rest is left out".to_owned());
+    }
     let held: Vec<Side> = Side::BOTH
         .into_iter()
         .filter(|&side| stays(work, &next, side))
         .collect();
     for &side in &held {
-        hold(
-            work,
-            &mut next,
-            side,
-            seam.hands[usize::from(side == Side::Left)].leave,
-        );
+        let leave = seam.hands[usize::from(side == Side::Left)].leave;
+        hold(work, &mut next, side, leave, ends.until);
         did.push(format!(
             "the {} hand stays where it is: the second sign does not use it",
             side.name()
@@ -65,8 +69,8 @@ pub(crate) fn then(
         did.push(format!(
             "{} hand: leaves {} frames before the end, enters at frame {}, {} frames between",
             side.name(),
-            work.frames - 1 - cut.leave,
-            cut.enter,
+            ends.returned + work.frames - 1 - cut.leave,
+            ends.approached + cut.enter,
             frames
         ));
     }
@@ -76,6 +80,45 @@ pub(crate) fn then(
         joins,
         contacts,
     })
+}
+
+/// The ends of two signs that were cut off, and the frames beside them in which a hand may leave or enter.
+#[derive(Default)]
+struct Ends {
+    /// The frames that the end of the first sign has lost, and the start of the second.
+    returned: usize,
+    approached: usize,
+    /// The last frames of the first sign that follow its last phase, if it goes back to rest.
+    after: Option<usize>,
+    /// The first frames of the second sign that precede its first phase, if it comes from rest.
+    before: Option<usize>,
+    /// The frame of the second sign at which its hands go back to rest; its end if they do not.
+    until: usize,
+}
+
+/// Cuts the first sign's return to rest and the second's approach from rest off, except for the frames in which a hand
+/// may leave or enter. A sign without rest, or without known phases, stays as it is.
+fn without_rest(first: &mut Work, second: &mut Work) -> Result<Ends, Cause> {
+    let window = (WINDOW / first.rate.frame_time()).round() as usize;
+    let (one, other) = (cut::signed(first)?, cut::signed(second)?);
+    let mut ends = Ends {
+        until: other.end,
+        ..Ends::default()
+    };
+    if one.end < first.frames {
+        let after = window.min(first.frames - one.end);
+        ends.after = Some(after);
+        ends.returned = first.frames - one.end - after;
+        cut::keep_quietly(first, 0..one.end + after);
+    }
+    if other.start > 0 {
+        let before = window.min(other.start);
+        ends.before = Some(before);
+        ends.approached = other.start - before;
+        ends.until -= ends.approached;
+        cut::keep_quietly(second, ends.approached..second.frames);
+    }
+    Ok(ends)
 }
 
 /// Returns whether two skeletons are the same body: they may differ only in offsets of joints whose positions both
@@ -147,7 +190,7 @@ fn face_alike(first: &Work, second: &mut Work) {
 }
 
 /// Finds for each hand the frames to leave one sign and enter the next with the least cost.
-fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
+fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam {
     let wrists = Side::BOTH.map(|side| first.anatomy.arm(side).map(|arm| arm.hand));
     let joints = || wrists.iter().flatten().copied();
     let (a, b) = (Columns::of(first, joints()), Columns::of(second, joints()));
@@ -155,20 +198,29 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
         let frames = (WINDOW / work.rate.frame_time()).round() as usize;
         frames.min(work.frames * 3 / 10)
     };
-    let (before, after) = (window(first), window(second));
+    // Beside a rest that is cut off, hands leave after the last phase and enter before the first.
+    let before = ends.after.unwrap_or_else(|| window(first));
+    let after = ends.before.unwrap_or_else(|| window(second));
     let last = first.frames - 1;
     let mut hands = [Cut {
-        leave: last,
-        enter: 0,
+        leave: last - ends.after.unwrap_or(0),
+        enter: ends.before.unwrap_or(0),
     }; 2];
     let mut longest: f64 = 0.0;
-    for (cut, hand) in hands.iter_mut().zip(wrists) {
-        let Some(hand) = hand else { continue };
+    // Between two postures of signing, a hand that the second sign does not use sets no pace.
+    let signing = ends.after.or(ends.before).is_some();
+    let idle = Side::BOTH.map(|side| signing && !used(second, side) && used(second, side.other()));
+    for ((cut, hand), idle) in hands.iter_mut().zip(wrists).zip(idle) {
+        let Some(hand) = hand.filter(|_| !idle) else {
+            continue;
+        };
         let (pa, pb) = (a.positions(hand), b.positions(hand));
+        let usual = *cut;
         let mut least = f64::INFINITY;
         for (leave, &from) in pa.iter().enumerate().skip(last - before) {
             for (enter, &to) in pb.iter().enumerate().take(after + 1) {
-                let trimmed = (last - leave + enter) as f64 / (before + after).max(1) as f64;
+                let beside = leave.abs_diff(usual.leave) + enter.abs_diff(usual.enter);
+                let trimmed = beside as f64 / (before + after).max(1) as f64;
                 let cost = from.distance(to) + 0.02 * trimmed;
                 if cost < least {
                     (least, *cut) = (cost, Cut { leave, enter });
@@ -184,11 +236,19 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     // trunk, head and legs go with it.
     let left_out = |cut: &Cut| last - cut.leave + cut.enter;
     let [right, left] = hands;
-    let body = if left_out(&left) < left_out(&right) {
-        left
-    } else {
-        right
+    let body = match idle {
+        [true, false] => left,
+        [false, true] => right,
+        _ if left_out(&left) < left_out(&right) => left,
+        _ => right,
     };
+    let hands = [right, left].map(|cut| {
+        if left_out(&cut) < left_out(&body) {
+            body
+        } else {
+            cut
+        }
+    });
     let spare = left_out(&body);
     let offset = (first.frames + gap)
         .saturating_sub(spare)
@@ -200,23 +260,31 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>) -> Seam {
     }
 }
 
+/// Returns whether a sign uses a hand.
+fn used(work: &Work, side: Side) -> bool {
+    let mut notes = work.notes.iter();
+    notes.any(|note| note.hand == Some(side) && note.value.value().is_some())
+}
+
 /// Returns whether a hand of the first sign is idle in the second.
 fn stays(first: &Work, second: &Work, side: Side) -> bool {
-    let used = |work: &Work, side: Side| {
-        work.notes
-            .iter()
-            .any(|note| note.hand == Some(side) && note.value.value().is_some())
-    };
     used(first, side) && !used(second, side) && used(second, side.other())
 }
 
-/// Keeps a hand of the second movement in its posture at the end of the first.
-fn hold(first: &Work, second: &mut Work, side: Side, leave: usize) {
+/// Keeps a hand of the second movement in its posture at the end of the first; from the frame `until` on it goes to the
+/// second movement's own last posture.
+fn hold(first: &Work, second: &mut Work, side: Side, leave: usize, until: usize) {
     let groups = crate::work::groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {
         if *group == Group::Arm(side) || *group == Group::Fingers(side) {
             let rotation = first.channels[joint].rotations[leave];
-            second.channels[joint].rotations.fill(rotation);
+            let rotations = &mut second.channels[joint].rotations;
+            let (until, rest) = (until.min(rotations.len()), rotations[rotations.len() - 1]);
+            let steps = (rotations.len() - until) as f64;
+            rotations.fill(rotation);
+            for (n, own) in rotations[until..].iter_mut().enumerate() {
+                *own = Interpolation::MinimumJerk.rotation(rotation, rest, (n + 1) as f64 / steps);
+            }
         }
     }
     // The hand keeps its value at the end of the first sign.
@@ -229,7 +297,7 @@ fn hold(first: &Work, second: &mut Work, side: Side, leave: usize) {
         note.hand == Some(side) && about && note.value.value().is_some()
     });
     let shown = shown.filter(|note| note.span.start() < end && note.span.end() >= end);
-    let span = second.span();
+    let span = second.rate.span(0..until.min(second.frames));
     let shown = shown.map(|note| Note {
         span,
         ..note.clone()

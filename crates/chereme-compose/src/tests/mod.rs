@@ -9,6 +9,7 @@ mod laws;
 mod notated;
 mod operators;
 mod paths;
+mod rest;
 mod robust;
 mod said;
 mod values;

@@ -250,6 +250,14 @@ pub(super) const GENERAL: &[(&str, &str)] = &[
         "{source} ({gloss}), {n} images à {rate} i/s",
     ),
     (
+        "the first sign's return to rest is left out",
+        "le retour au repos du premier signe est laissé de côté",
+    ),
+    (
+        "the second sign's movement from rest is left out",
+        "le mouvement du second signe depuis le repos est laissé de côté",
+    ),
+    (
         "the notation is performed by the body of {address}",
         "la notation est jouée par le corps de {address}",
     ),
