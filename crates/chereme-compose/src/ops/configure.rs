@@ -84,6 +84,10 @@ impl Syntax for Configure {
                 "{value} becomes {other} over {span}, from {origin}",
                 "{value} devient {other} sur {span}, d’après {origin}",
             ),
+            Text::new(
+                "the shape changes in {is} s instead of {asked} s: the sign leaves no more time",
+                "la forme change en {is} s au lieu de {asked} s : le signe ne laisse pas plus de temps",
+            ),
             Text::new("(no value)", "(sans valeur)"),
             Text::new("no value is given", "aucune valeur n’est donnée"),
         ],
@@ -231,11 +235,19 @@ pub(crate) fn configure(
         };
         stretches.push(Stretch { frames, joints });
     }
+    let mut shortest = usize::MAX;
     for joint in work.anatomy.fingers(side) {
         let column: Vec<Option<DQuat>> = stretches.iter().map(|s| s.rotation(joint)).collect();
         if column.iter().any(Option::is_some) {
-            overwrite(work, joint, &stretches, &column, course, time);
+            let least = overwrite(work, joint, &stretches, &column, course, time);
+            shortest = shortest.min(least);
         }
+    }
+    let is = shortest as f64 * work.rate.frame_time();
+    if let Some(asked) = time.filter(|asked| is + work.rate.frame_time() < *asked) {
+        did.push(format!(
+            "the shape changes in {is:.2} s instead of {asked:.2} s: the sign leaves no more time"
+        ));
     }
     work.changed([Group::Fingers(side)], operator);
     Ok(did)
@@ -280,7 +292,8 @@ impl Stretch {
     }
 }
 
-/// Writes the key values of one joint over their spans, then the transitions between them.
+/// Writes the key values of one joint over their spans, then the transitions between them; returns the frames of the
+/// shortest transition, or more than any movement has.
 fn overwrite(
     work: &mut Work,
     joint: usize,
@@ -288,8 +301,9 @@ fn overwrite(
     values: &[Option<DQuat>],
     course: &Course,
     time: Option<f64>,
-) {
+) -> usize {
     let frames = work.frames;
+    let mut shortest = usize::MAX;
     let length = ((time.unwrap_or(CHANGE) / work.rate.frame_time()).round() as usize).max(1);
     let source = work.channels[joint].rotations.clone();
     let column = &mut work.channels[joint].rotations;
@@ -320,6 +334,9 @@ fn overwrite(
                 &stretches[edge - 1..=edge],
             ),
         };
+        if !window.is_empty() || (edge > 0 && edge < stretches.len()) {
+            shortest = shortest.min(window.len());
+        }
         let steps = (window.len() + 1) as f64;
         for (n, frame) in window.enumerate() {
             let a = before.unwrap_or(source[frame]);
@@ -327,6 +344,7 @@ fn overwrite(
             column[frame] = course.rotation(a, b, (n + 1) as f64 / steps);
         }
     }
+    shortest
 }
 
 /// Returns the frames in which one value becomes the next: the gap between their spans or, if a time is asked for, the
