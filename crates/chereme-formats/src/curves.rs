@@ -27,6 +27,9 @@ pub(crate) use table::{TimeUnit, are_millis, unit_of_time};
 /// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.
 const EVEN_SLACK: f64 = 0.1;
 
+/// Largest distance, in seconds, of times from the grid of a rate that were computed from it and not rounded.
+const EXACT_SLACK: f64 = 1e-9;
+
 /// The kinds of files of channels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum CurveFile {
@@ -78,7 +81,11 @@ impl CurveFile {
             "frame" if cells.contains(&"confidence") && cells.contains(&"success") => {
                 Some(Self::OpenFace)
             }
-            first if cells.len() > 1 && table::unit_of_time(first).is_some() => Some(Self::Plain),
+            _ if table::column_of_time(cells.iter().copied())
+                .is_some_and(|(at, _)| cells.len() > at + 1) =>
+            {
+                Some(Self::Plain)
+            }
             // Without their rate frames are no times; the reader says so of a face.
             "frame" | "frames" if System::of_names(cells.iter().copied()).is_some() => {
                 Some(Self::Plain)
@@ -234,11 +241,9 @@ impl Channels {
         });
         let curves = Curves::new(times, curves.collect())
             .map_err(|error| Error::Track(error.to_string()))?;
-        let name = if kind == CurveFile::Plain {
-            "curves"
-        } else {
-            "face"
-        };
+        let channels = curves.curves().iter().map(|curve| curve.name.as_str());
+        let is_face = kind != CurveFile::Plain || System::of_names(channels).is_some();
+        let name = if is_face { "face" } else { "curves" };
         let mut track = FileTrack::new(name, Content::Curves(curves));
         track.offset = offset;
         track.clock = day.map(Instant::from_seconds);
@@ -275,13 +280,18 @@ fn times(
     let count = from_first.len();
     let last = from_first.last().copied().unwrap_or_default();
     let mean = (count.max(2) - 1) as f64 / last;
-    // Rounded times show a usual rate with an error of their own.
-    let rates = [near_usual(mean), mean].into_iter().filter_map(rate_of);
-    let even = rates.into_iter().find(|rate| {
-        let near = |(frame, time): (usize, &f64)| {
-            (time - frame as f64 * rate.frame_time()).abs() <= EVEN_SLACK * rate.frame_time()
-        };
+    let fits = |rate: &Rate, slack: f64| {
+        let near =
+            |(frame, time): (usize, &f64)| (time - frame as f64 * rate.frame_time()).abs() <= slack;
         from_first.iter().enumerate().all(near)
+    };
+    // Rounded times show a usual rate with an error of their own; exact ones show theirs, however near a usual one is.
+    let exact = rate_of(mean).filter(|rate| fits(rate, EXACT_SLACK));
+    let rates = [near_usual(mean), mean].into_iter().filter_map(rate_of);
+    let even = exact.or_else(|| {
+        rates
+            .into_iter()
+            .find(|rate| fits(rate, EVEN_SLACK * rate.frame_time()))
     });
     if let Some(rate) = even.filter(|_| count > 1) {
         return Ok((Times::Even(rate), offset));

@@ -14,7 +14,7 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use chereme_motion::column::{Column, Number};
-use chereme_motion::{Convention, Direction, Instant, Marker, Markers, Space};
+use chereme_motion::{Convention, Direction, Instant, Marker, Markers, Rate, Space, Times};
 
 use glam::DVec3;
 
@@ -353,10 +353,11 @@ fn convention(unit: Option<&str>, points: &[Marker], findings: &mut Findings) ->
     }
 }
 
-/// Writes a track of markers in a room as TRC; gaps are empty cells.
+/// Writes a track of markers in a room as TRC; gaps are empty cells. Frames without an even rate have their own times, and
+/// `DataRate` is the rate of their shortest step, which shows that they are uneven.
 ///
 /// # Errors
-/// Fails, with a sentence for the user, if the points are not in a room, or the frames have no even rate.
+/// Fails, with a sentence for the user, if the points are not in a room, or TRC has no name for their unit.
 pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, String> {
     let Space::World(convention) = markers.space() else {
         return Err(format!(
@@ -364,10 +365,6 @@ pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, S
             markers.space().name()
         ));
     };
-    let rate = markers
-        .times()
-        .rate()
-        .ok_or("TRC needs an even frame rate")?;
     let units = [
         (1.0, "m"),
         (0.01, "cm"),
@@ -380,8 +377,11 @@ pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, S
         .iter()
         .find(|(metres, _)| (metres - convention.metres_per_unit).abs() < 1e-9)
         .ok_or_else(|| format!("TRC has no unit of {} m", convention.metres_per_unit))?;
-    let per_second = rate.per_second();
     let (frames, points) = (markers.frames(), markers.points().len());
+    let per_second = markers
+        .times()
+        .rate()
+        .map_or_else(|| shortest_step(markers).recip(), Rate::per_second);
     let mut out = format!(
         "PathFileType\t4\t(X/Y/Z)\t{name}\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames\n\
          {per_second}\t{per_second}\t{frames}\t{points}\t{unit}\t{per_second}\t1\t{frames}\nFrame#\tTime"
@@ -400,8 +400,13 @@ pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, S
     }
     out.push_str("\n\n");
     for frame in 0..frames {
+        let own = match markers.times() {
+            Times::Listed(listed) if offset == Instant::ZERO => listed.seconds().text(frame),
+            _ => None,
+        };
         let seconds = markers.times().instant(frame).seconds() + offset.seconds();
-        let _ = write!(out, "{}\t{seconds:.6}", frame + 1);
+        let seconds = own.unwrap_or_else(|| format!("{seconds:.6}"));
+        let _ = write!(out, "{}\t{seconds}", frame + 1);
         for point in markers.points() {
             for column in &point.place {
                 let text = column.text(frame).unwrap_or_default();
@@ -411,4 +416,14 @@ pub fn write(name: &str, markers: &Markers, offset: Instant) -> Result<String, S
         out.push('\n');
     }
     Ok(out)
+}
+
+/// Returns the shortest step in seconds between frames with times of their own; 1 for a single frame.
+fn shortest_step(markers: &Markers) -> f64 {
+    let at = |frame: usize| markers.times().instant(frame).seconds();
+    let steps = (1..markers.frames()).map(|frame| at(frame) - at(frame - 1));
+    let shortest = steps
+        .filter(|step| *step > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    if shortest.is_finite() { shortest } else { 1.0 }
 }

@@ -344,14 +344,34 @@ pub(crate) fn unit_of_time(title: &str) -> Option<TimeUnit> {
     }
 }
 
+/// Returns the column of times among the first two, and its unit. A column of frame numbers before one of seconds only
+/// counts the rows, as in the tables that this program writes.
+pub(super) fn column_of_time<'t>(
+    mut titles: impl Iterator<Item = &'t str>,
+) -> Option<(usize, TimeUnit)> {
+    let first = titles.next()?;
+    if counts_frames(first)
+        && let Some(unit @ TimeUnit::Seconds(_)) = titles.next().and_then(unit_of_time)
+    {
+        return Some((1, unit));
+    }
+    Some((0, unit_of_time(first)?))
+}
+
+/// Returns whether a title is that of frame numbers, such as `frame` or `frame [25 fps]`.
+fn counts_frames(title: &str) -> bool {
+    let name = title.split(['[', '(']).next().unwrap_or_default().trim();
+    ["frame", "frames"]
+        .iter()
+        .any(|word| name.eq_ignore_ascii_case(word))
+}
+
 pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
     let table = table(text, |_| false)?;
-    let unit = table
-        .header
-        .first()
-        .and_then(|title| unit_of_time(title))
-        .ok_or(Error::NoRate)?;
-    let mut channels = channels(&table, &[0])?;
+    let titles = table.header.iter().map(String::as_str);
+    let (at, unit) = column_of_time(titles).ok_or(Error::NoRate)?;
+    let left_out: Vec<usize> = (0..=at).collect();
+    let mut channels = channels(&table, &left_out)?;
     // A unit stands behind the name in square brackets.
     let known = [
         "rad", "deg", "mm", "cm", "m", "N", "mV", "V", "px", "s", "ms",
@@ -369,10 +389,10 @@ pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Err
     }
     channels.clock = match unit {
         TimeUnit::Seconds(unit) => {
-            let times = seconds(&table, 0, unit)?;
+            let times = seconds(&table, at, unit)?;
             let stated = table
                 .header
-                .first()
+                .get(at)
                 .is_some_and(|title| title.contains(['[', '(', '_']));
             match !stated && unit == 1.0 && are_millis(&times) {
                 true => {
@@ -386,7 +406,7 @@ pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Err
             }
         }
         TimeUnit::Frames(rate) => {
-            let frames = seconds(&table, 0, 1.0)?;
+            let frames = seconds(&table, at, 1.0)?;
             let even = frames.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
             match rate_of(rate).filter(|_| even) {
                 Some(rate) => Clock::Rate(rate),

@@ -66,6 +66,29 @@ fn rows_without_a_face_and_the_decimals_of_other_countries_are_read() {
 }
 
 #[test]
+fn a_column_of_frame_numbers_before_the_times_is_no_curve() {
+    let rows = |step: f64| {
+        (0..60_u32).fold(String::new(), |text, row| {
+            text + &format!("{row},{},0.5,1\n", f64::from(row) * step)
+        })
+    };
+    for title in ["frame", "Frame [30 fps]"] {
+        let text = format!(
+            "{title},time_s,JawOpen,MouthClose\n{}",
+            rows(1000.0 / 29988.0)
+        );
+        let (curves, offset, findings) = curves(&text);
+        let names: Vec<&str> = curves.curves().iter().map(|it| it.name.as_str()).collect();
+        assert_eq!(names, ["JawOpen", "MouthClose"], "{title}");
+        let expected = Rate::new(29988, 1000).expect("a rate");
+        assert_eq!(curves.times().rate(), Some(expected), "{title}");
+        assert_eq!((offset, findings.len()), (Instant::ZERO, 0), "{title}");
+    }
+    let alone = b"frame,time_s\n0,0\n";
+    assert_eq!(CurveFile::of(alone), None, "there is no curve");
+}
+
+#[test]
 fn times_of_open_face_and_of_tables_show_the_rate_of_the_film() {
     let open_face = |rate: f64, rows: u32| {
         let mut text = "frame, timestamp, confidence, success, AU01_r\n".to_owned();

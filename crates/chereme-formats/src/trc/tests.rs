@@ -350,6 +350,25 @@ fn markers_read_back_unchanged() {
 }
 
 #[test]
+fn frames_without_an_even_rate_read_back_with_their_times() {
+    let rows = (2..9).fold(String::new(), |rows, frame| {
+        let time = f64::from(frame * frame) / 100.0;
+        rows + &format!("{}\t{time:.7}\t1\t2\t3\t4\t5\t6\n", frame + 1)
+    });
+    let (expected, _) = markers(&(PLAIN.replace("\t2\t2\tmm", "\t9\t2\tmm") + &rows));
+    assert_eq!(expected.times().rate(), None, "uneven");
+    let text = write("a.trc", &expected, Instant::ZERO).expect("TRC");
+    let (again, _) = markers(&text);
+    let times = |it: &Markers| {
+        (0..9)
+            .map(|frame| it.times().instant(frame))
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(times(&again), times(&expected));
+    assert_eq!(again.points(), expected.points());
+}
+
+#[test]
 fn files_of_others_are_read_whole() {
     let Some(folder) = std::env::var_os("CHEREME_SHARED_DATA") else {
         eprintln!("skipped: CHEREME_SHARED_DATA names no folder");

@@ -90,8 +90,8 @@ impl Columns {
         let placed = found.at[1].is_some() || found.at[6].is_some();
         if timed && !placed {
             // Without a column of tiers, a title such as "Gloss" is the name of a tier.
-            let is_tier =
-                |column: &usize| !matches!(&*normal(&header[*column]), "value" | "annotation");
+            let is_value = |title: &str| matches!(title, "value" | "valeur" | "annotation");
+            let is_tier = |column: &usize| !is_value(&normal(&header[*column]));
             if let Some(column) = found.at[4].take_if(|column| is_tier(column)) {
                 unknown.push((column, header[column].clone()));
                 unknown.sort();
@@ -240,7 +240,11 @@ fn meaning(title: &str) -> Option<Title> {
         "gloss" | "glose" | "text" | "texte" | "label" | "annotation value" | "valeur" | "wert" => {
             return Some(Title::Named(4));
         }
-        "tier name" | "piste" | "spur" => return Some(Title::Named(1)),
+        "tier name" | "acteur" | "nom de l acteur" | "piste" | "spur" => {
+            return Some(Title::Named(1));
+        }
+        "enregistrement" => return Some(Title::Named(0)),
+        "identifiant" => return Some(Title::Named(6)),
         "participant" => return Some(Title::Participant),
         "annotator" => return Some(Title::Idle),
         _ => {}

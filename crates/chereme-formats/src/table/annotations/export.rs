@@ -28,7 +28,9 @@ pub fn is_export(head: &[u8]) -> bool {
     let titled = |name: &str| table.header.iter().any(|it| normal(it).starts_with(name));
     let columns = Columns::of_titles(&table.header, &mut Findings::default());
     Columns::of_export(&table).is_some()
-        || !titled("recording") && (titled("begin time") || columns.holds_annotations())
+        || !titled("recording")
+            && !titled("enregistrement")
+            && (titled("begin time") || columns.holds_annotations())
 }
 
 /// Reads tiers with their annotations; of annotations that overlap on a tier the first ends earlier.
@@ -302,6 +304,15 @@ mod tests {
             described(french),
             ["Glose: a2t0 1250-2400 MAISON, a3t0 2480-3000 CHAT"]
         );
+        // The program says "acteur" for a tier, as ELAN does in French.
+        for titles in ["Acteur;Début;Fin;Glose", "acteur;début;fin;valeur"] {
+            let text = format!("{titles}\nX;00:00:01.700;00:00:01.900;ÉTÉ\n");
+            assert_eq!(described(&text), ["X: a2t0 1700-1900 ÉTÉ"], "{titles}");
+        }
+        assert_eq!(
+            described("Début;Fin;Valeur;Acteur\n1,5;2;A;X\n"),
+            ["X: a2t0 1500-2000 A"]
+        );
         let bare = "start_ms,duration_ms,gloss,mouthing\n1200,300,MAISON,ma\n";
         assert_eq!(
             described(bare),
@@ -343,6 +354,11 @@ mod tests {
                 false,
             ),
             ("Tier,Begin,End,Value\nGloss,0.5,1.0,BOL\n", true),
+            ("Acteur;Début;Fin;Glose\nX;0,5;1,0;BOL\n", true),
+            (
+                "Enregistrement;Acteur;Début;Fin;Valeur\nA;X;0,5;1,0;B\n",
+                false,
+            ),
             ("start_ms,end_ms,gloss\n500,1000,BOL\n", true),
             ("Gebärde;Start;Ende;Hand\nHAUS1;0.5;1.0;r\n", true),
             (
