@@ -318,7 +318,8 @@ pub(crate) fn stretch(connection: &Connection, address: &Address) -> Result<Stre
         return Err(
             Error::wrong(format!("{address} {known_by} without movement"))
                 .at(address.to_string())
-                .advise(remedy),
+                .advise(remedy)
+                .lacking(),
         );
     };
     Ok(Stretch {

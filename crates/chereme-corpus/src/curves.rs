@@ -150,7 +150,8 @@ pub(crate) fn write_table(
         let name = &stretch.recording.name;
         return Err(Error::wrong(format!("the recording {name:?} has no curves")).advise(
             Remedy::command("signs made from notation with non-manual tiers have some; `chereme list CORPUS recordings` counts them"),
-        ));
+        )
+        .lacking());
     }
     let fault = |error: csv::Error| Error::wrong(format!("the curves cannot be written: {error}"));
     let mut table = csv::WriterBuilder::new()
@@ -160,7 +161,7 @@ pub(crate) fn write_table(
     let titles = titles.chain(curves.iter().map(|curve| curve.name.as_str()));
     table.write_record(titles).map_err(fault)?;
     for n in 0..frames.len() {
-        let time = track.rate.instant(n).seconds();
+        let time = track::table::seconds(track.rate, n);
         let values = curves.iter().map(|curve| curve.values[n].to_string());
         let row = [n.to_string(), time.to_string()].into_iter().chain(values);
         table.write_record(row).map_err(fault)?;

@@ -1,10 +1,12 @@
 //! Errors of work on a corpus, with their place and remedy.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 pub use chereme_compose::Meant;
 use chereme_sign::text::did_you_mean;
 use chereme_sign::{Choice, Remedy};
+
+use crate::words::{Language, fill, trouble};
 
 /// An error in work on a corpus.
 #[derive(Debug, thiserror::Error)]
@@ -53,6 +55,8 @@ pub enum Error {
         remedy: Option<Remedy>,
         /// The name that was meant, if one near to a known one was written.
         meant: Option<Box<Meant>>,
+        /// Whether what was named only holds nothing of what is asked for.
+        lacks: bool,
     },
     /// A query cannot be understood or answered.
     #[error("{}", .0.drawn)]
@@ -64,7 +68,7 @@ pub enum Error {
     #[error("the recipe cannot be made: {}: {}", .0.step, .0.cause)]
     Step(Box<FailedStep>),
     /// Several parts of a request cannot be carried out; nothing was changed.
-    #[error("{}", several(errors))]
+    #[error("{}", several(errors, Language::English, &str::to_owned))]
     Several {
         /// The failed changes, each with its place.
         errors: Vec<Error>,
@@ -141,7 +145,23 @@ impl Error {
             place: None,
             remedy: None,
             meant: None,
+            lacks: false,
         }
+    }
+
+    /// Returns the error as one of a thing that holds nothing of what is asked for, such as a recording without markers.
+    /// Work on many things leaves that one out.
+    #[must_use]
+    pub(crate) fn lacking(mut self) -> Self {
+        if let Self::Wrong { lacks, .. } = &mut self {
+            *lacks = true;
+        }
+        self
+    }
+
+    /// Returns whether what was named only holds nothing of what is asked for.
+    pub(crate) fn is_lack(&self) -> bool {
+        matches!(self, Self::Wrong { lacks: true, .. })
     }
 
     /// Returns the error for a failure to read or write `path`.
@@ -152,42 +172,30 @@ impl Error {
         }
     }
 
-    /// Returns the error with `place` as its place.
+    /// Returns the error with `at` as its place.
     #[must_use]
-    pub fn at(self, place: impl Into<String>) -> Self {
-        match self {
-            Self::Wrong {
-                message,
-                remedy,
-                meant,
-                ..
-            } => Self::Wrong {
-                message,
-                remedy,
-                meant,
-                place: Some(place.into()),
-            },
-            other => other,
+    pub fn at(mut self, at: impl Into<String>) -> Self {
+        if let Self::Wrong { place, .. } = &mut self {
+            *place = Some(at.into());
+        }
+        self
+    }
+
+    /// Returns the error of work on a file: one that the file may not be written names it.
+    pub(crate) fn of_file(self, path: &Path) -> Self {
+        match self.cause() {
+            Some(Cause::ReadOnly) => Self::file(path, std::io::ErrorKind::PermissionDenied.into()),
+            _ => self,
         }
     }
 
     /// Returns the error with advice.
     #[must_use]
-    pub fn advise(self, remedy: impl Into<Remedy>) -> Self {
-        match self {
-            Self::Wrong {
-                message,
-                place,
-                meant,
-                ..
-            } => Self::Wrong {
-                message,
-                place,
-                meant,
-                remedy: Some(remedy.into()),
-            },
-            other => other,
+    pub fn advise(mut self, advice: impl Into<Remedy>) -> Self {
+        if let Self::Wrong { remedy, .. } = &mut self {
+            *remedy = Some(advice.into());
         }
+        self
     }
 
     /// Returns the failure with the name that was meant.
@@ -206,6 +214,14 @@ impl Error {
             Self::Wrong { meant, .. } => meant.as_deref(),
             Self::Step(step) => step.meant.as_ref(),
             _ => None,
+        }
+    }
+
+    /// Returns the message in the words of `say`, which gets each part of a list of failures alone.
+    pub fn spoken(&self, language: Language, say: &dyn Fn(&str) -> String) -> String {
+        match self {
+            Self::Several { errors } => several(errors, language, say),
+            other => say(&other.to_string()),
         }
     }
 
@@ -272,6 +288,7 @@ fn said(error: &std::io::Error) -> String {
     match error.kind() {
         std::io::ErrorKind::NotFound => "there is nothing of this name".to_owned(),
         std::io::ErrorKind::AlreadyExists => "something of this name is there already".to_owned(),
+        std::io::ErrorKind::PermissionDenied => "it may not be read or written".to_owned(),
         std::io::ErrorKind::InvalidData if is_encoding(error) => {
             "the file is no text in UTF-8".to_owned()
         }
@@ -284,25 +301,29 @@ fn is_encoding(error: &std::io::Error) -> bool {
     error.kind() == std::io::ErrorKind::InvalidData && error.to_string().contains("UTF-8")
 }
 
-/// Returns the messages of a list of errors, one per line.
-fn several(errors: &[Error]) -> String {
+/// Returns the messages of a list of errors, one per line, with each part in the words of `say`.
+fn several(errors: &[Error], language: Language, say: &dyn Fn(&str) -> String) -> String {
     const SHOWN: usize = 20;
-    let mut lines = vec![match errors.len() {
+    let mut lines = vec![say(&match errors.len() {
         1 => "one change cannot be made, and none was:".to_owned(),
         count => format!("{count} changes cannot be made, and none was:"),
-    }];
+    })];
     lines.extend(errors.iter().take(SHOWN).map(|error| {
-        let place = error
-            .place()
-            .map_or(String::new(), |place| format!("{place}: "));
         let remedy = error
             .remedy()
             .filter(|_| errors.len() > 1)
-            .map_or(String::new(), |remedy| format!(" ({remedy})"));
-        format!("{place}{error}{remedy}")
+            .map_or(String::new(), |remedy| format!(" ({})", say(remedy.text())));
+        let what = format!("{}{remedy}", error.spoken(language, say));
+        match error.place() {
+            Some(place) => fill(
+                trouble::PLACED.of(language),
+                &[("place", &say(&place)), ("what", &what)],
+            ),
+            None => what,
+        }
     }));
     if errors.len() > SHOWN {
-        lines.push(format!("and {} more", errors.len() - SHOWN));
+        lines.push(say(&format!("and {} more", errors.len() - SHOWN)));
     }
     lines.join("\n")
 }

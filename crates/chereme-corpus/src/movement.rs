@@ -211,6 +211,7 @@ pub(crate) fn no_movement(recording: &str) -> Error {
         .advise(Remedy::command(
             "import the motion file of the same name; movement is made from markers by `chereme fit CORPUS RECORDING`",
         ))
+        .lacking()
 }
 
 impl MotionTrack {

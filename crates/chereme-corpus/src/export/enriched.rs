@@ -52,7 +52,14 @@ pub(super) fn write(
         }
         Err(error) => {
             let _ = fs::remove_dir_all(&part);
-            Err(error)
+            Err(match error {
+                // The temporary name says nothing to the caller.
+                Error::File { path, source } if path.starts_with(&part) => {
+                    let inner = path.strip_prefix(&part).unwrap_or(&path);
+                    Error::file(to.join(inner), source)
+                }
+                other => other,
+            })
         }
     }
 }

@@ -1,15 +1,13 @@
-//! Exports movement as glTF and VRMA, markers as C3D and TRC, and tiers as TextGrid, subtitles and ELAN tables.
+//! Exports movement as glTF and VRMA, markers as C3D and TRC, and tiers as TextGrid and ELAN tables.
 
 use std::io::Write;
 use std::ops::Range;
 
-use chereme_formats::eaf::Transcript;
 use chereme_formats::gltf::vrma::{self, AvatarFace, Expression};
 use chereme_formats::table::annotations;
-use chereme_formats::{TooFar, c3d, gltf, subtitles, textgrid, trc};
-use chereme_motion::{Clip, Instant, Span};
+use chereme_formats::{TooFar, c3d, gltf, textgrid, trc};
+use chereme_motion::{Clip, Instant, Space, Span};
 use chereme_sign::Remedy;
-use chereme_sign::TierRole;
 use rusqlite::Connection;
 
 use crate::address::Stretch;
@@ -89,6 +87,14 @@ pub(super) fn vrma(
         Some(_) => track.frames_in(stretch.span),
         None => 0..track.frames(),
     };
+    if frames.is_empty() {
+        let name = &stretch.recording.name;
+        return Err(
+            Error::wrong(format!("the movement of {name:?} has no frames"))
+                .advise("write .bvh, which holds a skeleton that does not move")
+                .lacking(),
+        );
+    }
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
     let anatomy = track.anatomy(connection)?;
     let span = on_the_clock(&track, &clip, &frames);
@@ -123,9 +129,11 @@ pub(super) fn vrma(
     let about = about(connection, stretch, span)?;
     let bytes = vrma::write(&clip, &anatomy, &face, &about).map_err(|error| match error {
         vrma::WriteError::TooFar(error) => too_far(&error),
-        vrma::WriteError::NoAvatar(reason) => Error::wrong(reason).advise(Remedy::command(
-            "say which joint is what with `chereme track`, or write .glb",
-        )),
+        vrma::WriteError::NoAvatar(reason) => Error::wrong(reason)
+            .advise(Remedy::command(
+                "say which joint is what with `chereme track`, or write .glb",
+            ))
+            .lacking(),
     })?;
     put(out, &bytes)
 }
@@ -169,8 +177,15 @@ pub(super) fn points(
     let span = stretch.token.as_ref().map(|_| stretch.span);
     let markers = track::read::markers(connection, &row, span)?;
     let offset = Instant::from_micros(row.offset_us.max(0));
+    let is_even = markers.times().rate().is_some() || form == Points::Trc;
+    let has_form = is_even && matches!(markers.space(), Space::World(_));
     let fault = |error: String| {
-        Error::wrong(error).advise("export the folder of everything for its exact numbers as CSV")
+        let remedy = "write .markers.csv, which has its exact numbers";
+        let error = Error::wrong(error).advise(remedy);
+        match has_form {
+            true => error,
+            false => error.lacking(),
+        }
     };
     if let Points::C3d = form {
         let all = tracks::tracks(connection, stretch.recording.id)?;
@@ -240,6 +255,7 @@ fn only(
         .advise(Remedy::command(
             "`chereme track CORPUS RECORDING` lists its tracks",
         ))
+        .lacking()
     })?;
     if !names.is_empty() {
         notes.push(format!(
@@ -305,51 +321,8 @@ pub(super) fn text_grid(
     put(out, text.as_bytes())
 }
 
-/// Writes translations, or glosses if the recording has no translation, as subtitles.
-///
-/// # Errors
-/// Fails if the recording has neither, its rows are damaged, or writing fails.
-pub(super) fn subtitles(
-    connection: &Connection,
-    recording: &RecordingRow,
-    form: subtitles::Form,
-    out: &mut dyn Write,
-) -> Result<()> {
-    let transcript = super::eaf::tiers_of(connection, recording)?;
-    let rows = tiers::tiers(connection, recording.id)?;
-    let of = |role: TierRole| {
-        let names: Vec<&str> = rows
-            .iter()
-            .filter(|row| row.role == role)
-            .map(|row| row.name.as_str())
-            .collect();
-        let tiers = transcript.tiers.iter();
-        let tiers = tiers.filter(|tier| names.contains(&tier.name.as_str()));
-        let tiers: Vec<_> = tiers
-            .cloned()
-            .map(|tier| chereme_formats::eaf::convert::Tier {
-                parent: None,
-                ..tier
-            })
-            .collect();
-        Some(tiers).filter(|tiers| tiers.iter().any(|tier| !tier.annotations.is_empty()))
-    };
-    let tiers = of(TierRole::Translation).or_else(|| of(TierRole::Gloss));
-    let tiers = tiers.ok_or_else(|| {
-        Error::wrong(format!(
-            "the recording {:?} has neither glosses nor translations",
-            recording.name
-        ))
-        .advise("annotate one of the two, or export .eaf or .TextGrid")
-    })?;
-    let shown = Transcript {
-        tiers,
-        ..Transcript::default()
-    };
-    put(out, subtitles::write(&shown, form).as_bytes())
-}
-
-fn put(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
+/// Writes bytes.
+pub(super) fn put(out: &mut dyn Write, bytes: &[u8]) -> Result<()> {
     out.write_all(bytes)
         .map_err(|error| Error::wrong(format!("the file cannot be written: {error}")))
 }

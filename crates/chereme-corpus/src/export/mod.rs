@@ -13,6 +13,7 @@ mod notation;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod several;
+mod subtitles;
 #[cfg(test)]
 mod tests;
 
@@ -22,7 +23,7 @@ use std::fs::{self, File};
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
-use chereme_formats::subtitles;
+use chereme_formats::subtitles::Form as Subtitles;
 use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -34,7 +35,7 @@ use crate::address::{self, Address, Name, Stretch};
 use crate::curves;
 use crate::db::motion::hex;
 use crate::db::search as rows;
-use crate::db::{list, recordings, signs};
+use crate::db::{list, recordings, signs, tiers};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::track::TrackKind;
@@ -74,6 +75,17 @@ pub struct ExportReport {
     pub files: Vec<ExportedFile>,
     /// Notes for the reader of the files.
     pub notes: Vec<String>,
+    /// The recordings and tokens without a file, because they hold nothing for the format.
+    pub left_out: Vec<LeftOut>,
+}
+
+/// A recording or token without a file.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct LeftOut {
+    /// The recording's name, or the token's gloss.
+    pub name: String,
+    /// What it lacks.
+    pub why: String,
 }
 
 /// A file that was written.
@@ -102,7 +114,7 @@ impl Corpus {
     /// | `.markers.csv`, `.markers.tsv` | the same as a table of exact numbers, one row for each frame |
     /// | `.TextGrid` | the tiers of one recording, for Praat |
     /// | `.elan.txt` | the same in the form of ELAN's tab-delimited export |
-    /// | `.srt`, `.vtt` | the glosses and translations of one recording as subtitles |
+    /// | `.srt`, `.vtt` | the translations or glosses of one recording as subtitles, one language; or a tier |
     /// | `.parquet`, `.components.parquet` | one row for each token, or each value of a token (feature `parquet`) |
     /// | `.annotations.parquet`, `.frames.parquet` | one row for each annotation, or joint of a frame (same feature) |
     /// | `.sigml` | notated tokens as gestural SiGML |
@@ -245,7 +257,7 @@ enum Format {
     Markers(u8),
     TextGrid,
     ElanTable,
-    Subtitles(subtitles::Form),
+    Subtitles(Subtitles),
     Notation(notation::Form),
 }
 
@@ -263,8 +275,8 @@ impl Format {
             "c3d" => Some(Self::Points(foreign::Points::C3d)),
             "trc" => Some(Self::Points(foreign::Points::Trc)),
             "textgrid" => Some(Self::TextGrid),
-            "srt" => Some(Self::Subtitles(subtitles::Form::Srt)),
-            "vtt" => Some(Self::Subtitles(subtitles::Form::Vtt)),
+            "srt" => Some(Self::Subtitles(Subtitles::Srt)),
+            "vtt" => Some(Self::Subtitles(Subtitles::Vtt)),
             "sigml" => Some(Self::Notation(notation::Form::Gestural)),
             "hsigml" => Some(Self::Notation(notation::Form::Symbols)),
             "hns" | "txt" => Some(Self::Notation(notation::Form::Text)),
@@ -345,7 +357,7 @@ fn write_file(
             let stretch = stretch(connection, what)?;
             let moves = recordings::body_track(connection, stretch.recording.id)?.is_some();
             let shows = moves && curves::has_some(connection, &stretch)?;
-            if !shows && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? {
+            if !shows {
                 return foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes);
             }
             curves::write_table(connection, &stretch, delimiter, out)
@@ -385,21 +397,39 @@ fn write_file(
         }
         (Format::ElanTable, _) => {
             let stretch = stretch(connection, what)?;
+            has_tiers(connection, &stretch)?;
             foreign::elan_table(connection, &stretch.recording, out)
         }
         (Format::TextGrid, _) => {
             let stretch = stretch(connection, what)?;
+            has_tiers(connection, &stretch)?;
             foreign::text_grid(connection, &stretch.recording, out, notes)
+        }
+        (Format::Subtitles(form), ExportWhat::Address(Address::Tier(tier))) => {
+            subtitles::tier(connection, *tier, form, out)
         }
         (Format::Subtitles(form), _) => {
             let stretch = stretch(connection, what)?;
-            foreign::subtitles(connection, &stretch.recording, form, out)
+            subtitles::first_group(connection, &stretch.recording, form, out, notes)
         }
         (Format::Notation(form), _) => {
             let tokens = tokens(connection, what)?;
             notation::write(connection, &tokens, form, out, notes, progress)
         }
     }
+}
+
+/// Fails if a recording has no tiers.
+fn has_tiers(connection: &Connection, stretch: &Stretch) -> Result<()> {
+    if !tiers::tiers(connection, stretch.recording.id)?.is_empty() {
+        return Ok(());
+    }
+    let name = &stretch.recording.name;
+    Err(Error::wrong(format!("the recording {name:?} has no tiers"))
+        .advise(Remedy::command(
+            "add one with `chereme annotate CORPUS add-tier --in RECORDING NAME`, or export .eaf, which needs none",
+        ))
+        .lacking())
 }
 
 fn no_format(to: &Path, message: &str) -> Error {
@@ -481,27 +511,74 @@ fn whole(
     force: bool,
     write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
 ) -> Result<ExportedFile> {
-    if to.is_dir() || (to.exists() && !force) {
-        return Err(Error::file(to, io::ErrorKind::AlreadyExists.into()));
+    Unnamed::write(to, force, write)?.name()
+}
+
+/// A complete file under a temporary name beside its path; it is removed unless it gets its name.
+struct Unnamed {
+    part: PathBuf,
+    file: ExportedFile,
+}
+
+impl Unnamed {
+    fn write(
+        to: &Path,
+        force: bool,
+        write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
+    ) -> Result<Self> {
+        if to.is_dir() || (to.exists() && !force) {
+            return Err(Error::file(to, io::ErrorKind::AlreadyExists.into()));
+        }
+        check_folder(to)?;
+        let mut unnamed = Self {
+            part: unfinished(to),
+            file: ExportedFile {
+                path: to.to_owned(),
+                bytes: 0,
+                sha256: String::new(),
+            },
+        };
+        unnamed.fill(write)?;
+        Ok(unnamed)
     }
-    check_folder(to)?;
-    let part = unfinished(to);
-    let done = fill(&part, write).and_then(|file| {
-        fs::rename(&part, to).map_err(|error| Error::file(to, error))?;
-        Ok(ExportedFile {
-            path: to.to_owned(),
-            ..file
-        })
-    });
-    if done.is_err() {
-        // The remains of a failed export are useless; failing to remove them is not a second error.
-        let _ = fs::remove_file(&part);
+
+    fn fill(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<()> {
+        let to = self.file.path.clone();
+        let fault = |error| Error::file(&to, error);
+        let file = File::create(&self.part).map_err(fault)?;
+        let mut out = Hashed {
+            out: BufWriter::with_capacity(1 << 20, file),
+            digest: Sha256::new(),
+            bytes: 0,
+        };
+        write(&mut out)?;
+        let file = out
+            .out
+            .into_inner()
+            .map_err(|error| fault(error.into_error()))?;
+        file.sync_all().map_err(fault)?;
+        self.file.bytes = out.bytes;
+        self.file.sha256 = hex(&out.digest.finalize());
+        Ok(())
     }
-    done
+
+    /// Gives the file its name.
+    fn name(self) -> Result<ExportedFile> {
+        let file = self.file.clone();
+        fs::rename(&self.part, &file.path).map_err(|error| Error::file(&file.path, error))?;
+        Ok(file)
+    }
+}
+
+impl Drop for Unnamed {
+    fn drop(&mut self) {
+        // The remains of a failed export are useless; a file that got its name is no longer there.
+        let _ = fs::remove_file(&self.part);
+    }
 }
 
 /// Fails if the folder of the path does not exist.
-fn check_folder(to: &Path) -> Result<()> {
+pub(crate) fn check_folder(to: &Path) -> Result<()> {
     let folder = to.parent().unwrap_or(to);
     if folder.as_os_str().is_empty() || folder.is_dir() {
         return Ok(());
@@ -514,27 +591,6 @@ fn check_folder(to: &Path) -> Result<()> {
 fn unfinished(to: &Path) -> PathBuf {
     let name = to.file_name().unwrap_or_default().to_string_lossy();
     to.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple()))
-}
-
-fn fill(part: &Path, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<ExportedFile> {
-    let fault = |error| Error::file(part, error);
-    let file = File::create(part).map_err(fault)?;
-    let mut out = Hashed {
-        out: BufWriter::with_capacity(1 << 20, file),
-        digest: Sha256::new(),
-        bytes: 0,
-    };
-    write(&mut out)?;
-    let file = out
-        .out
-        .into_inner()
-        .map_err(|error| fault(error.into_error()))?;
-    file.sync_all().map_err(fault)?;
-    Ok(ExportedFile {
-        path: part.to_owned(),
-        bytes: out.bytes,
-        sha256: hex(&out.digest.finalize()),
-    })
 }
 
 /// Writer that counts and hashes the bytes written to it.

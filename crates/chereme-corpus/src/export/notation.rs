@@ -37,11 +37,11 @@ pub(super) fn write(
     let signs = notated(connection, tokens, progress)?;
     let without = tokens.len() - signs.len();
     if signs.is_empty() {
-        return Err(
-            Error::wrong("none of these tokens has a notation").advise(Remedy::command(
+        return Err(Error::wrong("none of these tokens has a notation")
+            .advise(Remedy::command(
                 "`chereme list CORPUS tokens --where notation=*` lists those that have one",
-            )),
-        );
+            ))
+            .lacking());
     }
     if without > 0 {
         notes.push(format!(

@@ -34,6 +34,10 @@ const DAMAGED: &str = "mend that place, or export the take again from the progra
 /// Reads facial animation parameters.
 pub(super) fn import_curves(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     job.kind = "curves";
+    // The table of a recording's curves has a second ending.
+    if let Some(stem) = job.stem.strip_suffix(".curves") {
+        job.stem = stem.to_owned();
+    }
     import_tracks(job, progress, |bytes| {
         curves::read(bytes).map_err(|it| it.to_string())
     })

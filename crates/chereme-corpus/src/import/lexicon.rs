@@ -136,14 +136,8 @@ fn unsure_numbers(table: &Lexicon, numerals: &BTreeMap<&str, Numerals>) -> Vec<R
 }
 
 fn wrong(error: &TableError) -> Error {
-    let of_frames =
-        matches!(error, TableError::Missing { found, .. } if found.starts_with("frame, time_s"));
-    Error::wrong(error.to_string()).advise(match of_frames {
-        true => {
-            "the table has a row for each frame, as export writes it; import the recording's .bvh, .c3d or .trc instead"
-        }
-        false => "a lexicon is a table with a header row and a column of glosses",
-    })
+    Error::wrong(error.to_string())
+        .advise("a lexicon is a table with a header row and a column of glosses")
 }
 
 /// Records which entries of the mapping name a column of the table, and returns whether any does.

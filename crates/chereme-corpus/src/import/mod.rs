@@ -161,6 +161,15 @@ impl Job<'_> {
         self.counts.created(what, many);
     }
 
+    /// Returns the recording of files in the same folder whose names differ only in the ending, also in a second one
+    /// such as `.curves`.
+    fn beside(&self) -> Option<i64> {
+        let folder = self.place.rfind('/').map_or(0, |at| at + 1);
+        let named = format!("{}{}.", &self.place[..folder], self.stem);
+        let places = &self.places;
+        places.beside(&self.place).or_else(|| places.beside(&named))
+    }
+
     /// Reports progress; fails if the caller asks the work to stop.
     fn report_progress(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         self.steps += 1;

@@ -18,10 +18,7 @@ use chereme_sign::Remedy;
 ///
 /// The reader stores the file itself ([`Job::keep`]) and reports its oddities.
 pub(super) fn store(job: &mut Job<'_>, new: Vec<NewTrack>, report: &mut FileReport) -> Result<i64> {
-    let same_take = job
-        .places
-        .beside(&job.place)
-        .filter(|_| job.options.into.is_none());
+    let same_take = job.beside().filter(|_| job.options.into.is_none());
     let given = job.options.clock.map(Instant::micros);
     let day = |track: &NewTrack| {
         let start = track.clock_us.or(given)?;

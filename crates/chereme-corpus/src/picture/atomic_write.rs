@@ -15,6 +15,7 @@ pub(crate) fn write(
     if !force && to.exists() {
         return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
     }
+    crate::export::check_folder(to)?;
     let part = to.with_extension(format!("{}.part", extension(to)));
     let fault = |error| Error::file(to, error);
     let file = File::create(&part).map_err(fault)?;

@@ -3,7 +3,7 @@
 use std::io::Write;
 
 use chereme_motion::column::Column;
-use chereme_motion::{Curves, Markers, Times};
+use chereme_motion::{Curves, Markers, Rate, Times};
 
 use super::Track;
 use crate::error::{Error, Result};
@@ -75,6 +75,11 @@ fn of_markers(markers: &Markers) -> (Vec<String>, Vec<&Column>) {
     all.into_iter().unzip()
 }
 
+/// Returns the time of a frame in seconds, not rounded to microseconds: it shows the rate when the table is read again.
+pub(crate) fn seconds(rate: Rate, frame: usize) -> f64 {
+    frame as f64 * f64::from(rate.per_seconds()) / f64::from(rate.frames())
+}
+
 fn rows(
     times: &Times,
     frames: usize,
@@ -93,7 +98,7 @@ fn rows(
         .map_err(fault)?;
     for frame in 0..frames {
         let time = match times {
-            Times::Even(rate) => (frame as f64 * rate.frame_time()).to_string(),
+            Times::Even(rate) => seconds(*rate, frame).to_string(),
             Times::Listed(listed) => listed.seconds().text(frame).unwrap_or_default(),
         };
         let cells = columns

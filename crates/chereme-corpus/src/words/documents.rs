@@ -429,10 +429,6 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "de {start} à {end} sans unité serait en secondes, et aucune annotation n’est si longue ni si tardive ; si ce sont des millisecondes, appelez les colonnes start_ms et end_ms, sinon start_s et end_s",
     ),
     (
-        "the table has a row for each frame, as export writes it; import the recording's .bvh, .c3d or .trc instead",
-        "la table a une ligne par image, comme l’exportation l’écrit ; importez plutôt le .bvh, .c3d ou .trc de l’enregistrement",
-    ),
-    (
         "no column of the first row ({found}) is {needed}; {remedy}",
         "aucune colonne de la première ligne ({found}) n’est {needed} ; {remedy}",
     ),

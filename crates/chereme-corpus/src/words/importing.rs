@@ -65,8 +65,65 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "dites quelle articulation est quoi avec `chereme track`, ou écrivez un .glb",
     ),
     (
-        "export the folder of everything for its exact numbers as CSV",
-        "exportez le dossier complet pour ses nombres exacts en CSV",
+        "write .markers.csv, which has its exact numbers",
+        "écrivez .markers.csv, qui a ses nombres exacts",
+    ),
+    (
+        "the movement of {name} has no frames",
+        "le mouvement de {name} n’a pas d’images",
+    ),
+    (
+        "write .bvh, which holds a skeleton that does not move",
+        "écrivez .bvh, qui contient un squelette immobile",
+    ),
+    (
+        "the recording {name} has no tokens",
+        "l’enregistrement {name} n’a pas d’occurrences",
+    ),
+    (
+        "the recording {name} has no tiers",
+        "l’enregistrement {name} n’a pas d’acteurs",
+    ),
+    (
+        "the recording {name} has no movement",
+        "l’enregistrement {name} n’a pas de mouvement",
+    ),
+    (
+        "name recordings that have some, or another format",
+        "nommez des enregistrements qui en ont, ou un autre format",
+    ),
+    (
+        "add one with {command}, or export .eaf, which needs none",
+        "ajoutez-en un avec {command}, ou exportez en .eaf, qui s’en passe",
+    ),
+    (
+        "the subtitles hold the tier {name}; not written: {others}, each of which can be exported by its number",
+        "les sous-titres contiennent l’acteur {name} ; non écrits : {others} ; chacun peut être exporté par son numéro",
+    ),
+    (
+        "the tier {name} has no annotations",
+        "l’acteur {name} n’a pas d’annotations",
+    ),
+    ("{command} counts them", "{command} les compte"),
+    (
+        "without what {format} holds, and left out: {n} of {all}: {names}",
+        "sans ce que contient un {format}, et laissés de côté : {n} sur {all} : {names}",
+    ),
+    (
+        "none of the {n} can be written as {format}; the first: {why}",
+        "aucun des {n} ne peut être écrit en {format} ; le premier : {why}",
+    ),
+    (
+        "the file of {name} cannot be written: {why}",
+        "le fichier de {name} ne peut pas être écrit : {why}",
+    ),
+    (
+        "the recording {name} has no track of markers",
+        "l’enregistrement {name} n’a pas de piste de marqueurs",
+    ),
+    (
+        "the recording {name} has no track of curves",
+        "l’enregistrement {name} n’a pas de piste de courbes",
     ),
     (
         "the recording {name} has no track of {kind}",

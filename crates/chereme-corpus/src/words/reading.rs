@@ -358,10 +358,6 @@ pub(super) const READING: &[(&str, &str)] = &[
         "un TRC contient des positions dans l’espace, et celles-ci sont {what}",
     ),
     (
-        "TRC needs an even frame rate",
-        "un TRC demande une cadence régulière",
-    ),
-    (
         "TRC has no unit of {n} m",
         "un TRC n’a pas d’unité de {n} m",
     ),

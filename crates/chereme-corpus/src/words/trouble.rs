@@ -6,6 +6,8 @@ texts! {
     WHAT_TO_DO: "  what to do: {what}", "  que faire : {what}";
     WARNING: "warning: {what}", "attention : {what}";
     NOTE: "note: {what}", "note : {what}";
+    PLACED: "{place}: {what}", "{place} : {what}";
+    UPGRADED: "note: {path} was written by an older program (version {from}) and is of version {to} now; {kept} is the file as it was", "note : {path} venait d’un programme plus ancien (version {from}) et est maintenant en version {to} ; {kept} est le fichier tel qu’il était";
     LINE: "line {n}: ", "ligne {n} : ";
     ACTIONS: "The actions are: {names}", "Les actions sont : {names}";
     FAILED: "That could not be done.", "Cela n’a pas été possible.";

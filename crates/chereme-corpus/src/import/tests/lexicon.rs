@@ -480,28 +480,6 @@ fn json_lines_are_read_entry_by_entry_or_refused() {
 }
 
 #[test]
-fn a_table_of_frames_is_refused_with_the_files_to_import_instead() {
-    let desk = Desk::new();
-    let mut corpus = desk.corpus("frames.chereme");
-    let columns: Vec<String> = (0..40).map(|n| format!("M{n}.x")).collect();
-    let text = format!(
-        "frame,time_s,{}\n0,0{}\n",
-        columns.join(","),
-        ",1".repeat(40)
-    );
-    let report = import(&mut corpus, &desk.file("take.markers.csv", &text), "{}");
-    assert_eq!(report.status, FileStatus::Refused);
-    let finding = &report.findings[0];
-    assert!(
-        finding.message.contains("M9.x and 30 more"),
-        "{}",
-        finding.message
-    );
-    let remedy = finding.remedy.as_ref().map(ToString::to_string);
-    assert!(remedy.is_some_and(|it| it.contains(".c3d")));
-}
-
-#[test]
 fn rows_of_one_gloss_become_tokens_of_one_sign_with_one_citation_form() {
     const ROWS: u32 = 50;
     let desk = Desk::new();
