@@ -5,12 +5,13 @@ use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::words::Language;
+use chereme_corpus::words::{Language, fill, trouble};
 use chereme_corpus::{Corpus, Error};
 use chereme_motion::Side;
 use clap::{Parser, ValueEnum};
 
 use crate::commands::Command;
+use crate::output::write_to_stderr;
 use crate::streams;
 
 /// A corpus database for signed movement: import, search, recombine, look at and export signs.
@@ -51,7 +52,21 @@ impl Cli {
 
     /// Opens the corpus.
     pub(crate) fn open(&self, path: &Path) -> Result<Corpus> {
-        Ok(Corpus::open(path, &self.author())?)
+        let corpus = Corpus::open(path, &self.author())?;
+        if let Some(upgrade) = corpus.upgrade() {
+            let (path, kept) = (path.display(), upgrade.kept.display());
+            let said = trouble::UPGRADED.of(language(self.language.as_deref()));
+            write_to_stderr(&fill(
+                said,
+                &[
+                    ("path", &path),
+                    ("from", &upgrade.from),
+                    ("to", &upgrade.to),
+                    ("kept", &kept),
+                ],
+            ));
+        }
+        Ok(corpus)
     }
 }
 

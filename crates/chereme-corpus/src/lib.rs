@@ -128,7 +128,7 @@ pub use db::delete::Belongings;
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::{TierRow, TierShown};
-pub use db::{OperationKind, OperationRow, on_waiting};
+pub use db::{OperationKind, OperationRow, Upgrade, on_waiting};
 pub use delete::{DeleteOptions, Deleted, DeletedRecording, Dependent, Dependents};
 pub use details::{
     Details, RecordingDetails, SignDetails, SignerDetails, TokenDetails, TokenValue,
@@ -209,29 +209,43 @@ impl Corpus {
     /// # Errors
     /// [`Error::File`] if something exists there already or the folder is missing.
     pub fn create(path: &Path, author: &str) -> Result<Self> {
-        Ok(Self {
-            store: Store::create(path, author, inventories::store_builtin)?,
+        let store = Store::create(path, author, inventories::store_builtin)?;
+        Ok(Self::of_store(store))
+    }
+
+    fn of_store(store: Store) -> Self {
+        Self {
+            store,
             learned: RefCell::default(),
             inventories: RefCell::default(),
             hands: RefCell::default(),
             drafted: recombine::Drafted::default(),
             faces: RefCell::default(),
-        })
+        }
     }
 
-    /// Opens the corpus at `path`; `author` is recorded with every change.
+    /// Opens the corpus at `path`; `author` is recorded with every change. A file of an older version is upgraded, and
+    /// kept as it was beside itself: [`upgrade`](Self::upgrade).
     ///
     /// # Errors
     /// [`Error::File`] if the file does not exist, [`Error::NotACorpus`] if it is another kind of file.
     pub fn open(path: &Path, author: &str) -> Result<Self> {
-        Ok(Self {
-            store: Store::open(path, author)?,
-            learned: RefCell::default(),
-            inventories: RefCell::default(),
-            hands: RefCell::default(),
-            drafted: recombine::Drafted::default(),
-            faces: RefCell::default(),
-        })
+        Ok(Self::of_store(Store::open(path, author)?))
+    }
+
+    /// Opens somebody else's corpus to read it, as for a merge into the one at `own`: the file stays as it is, also if its
+    /// version is older. The changes of its copy are lost.
+    ///
+    /// # Errors
+    /// Those of [`open`](Self::open).
+    pub fn open_unchanged(path: &Path, own: &Path, author: &str) -> Result<Self> {
+        Ok(Self::of_store(Store::open_unchanged(path, own, author)?))
+    }
+
+    /// Returns the upgrade that opening the file made, if its version was older.
+    #[must_use]
+    pub fn upgrade(&self) -> Option<&Upgrade> {
+        self.store.upgrade()
     }
 
     /// Returns the path of the file.

@@ -43,7 +43,7 @@ use crate::progress::{Progress, Step, Unit, unheard};
 pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
 pub(crate) use open::SCHEMA_VERSION;
-pub use open::on_waiting;
+pub use open::{Upgrade, on_waiting};
 
 /// Data derived from the rows and written in the same transaction, such as the search index.
 pub(crate) trait Derived: Default {
@@ -63,6 +63,9 @@ pub(crate) struct Store<D: Derived> {
     path: PathBuf,
     author: String,
     index: D,
+    upgrade: Option<Upgrade>,
+    /// The copy that stands for a file of an older version; it goes after the connection.
+    _copy: Option<open::Making>,
 }
 
 impl<D: Derived> Store<D> {
@@ -80,8 +83,18 @@ impl<D: Derived> Store<D> {
 
     /// Opens the corpus at `path`, and upgrades its schema if that is older than this version's.
     pub(crate) fn open(path: &Path, author: &str) -> Result<Self> {
-        let connection = open::open(path)?;
-        Self::ready(connection, path, author)
+        let (connection, upgrade) = open::open(path)?;
+        let mut store = Self::ready(connection, path, author)?;
+        store.upgrade = upgrade;
+        Ok(store)
+    }
+
+    /// Opens the corpus at `path`, whose file stays as it is; if its version is older, a copy beside `own` stands for it.
+    pub(crate) fn open_unchanged(path: &Path, own: &Path, author: &str) -> Result<Self> {
+        let (connection, copy) = open::open_unchanged(path, own)?;
+        let mut store = Self::ready(connection, path, author)?;
+        store._copy = copy;
+        Ok(store)
     }
 
     fn ready(connection: Connection, path: &Path, author: &str) -> Result<Self> {
@@ -92,7 +105,14 @@ impl<D: Derived> Store<D> {
             path,
             author,
             index: D::default(),
+            upgrade: None,
+            _copy: None,
         })
+    }
+
+    /// Returns what opening the file upgraded.
+    pub(crate) fn upgrade(&self) -> Option<&Upgrade> {
+        self.upgrade.as_ref()
     }
 
     /// Returns the path of the file.
@@ -185,9 +205,11 @@ impl<D: Derived> Store<D> {
         progress: &mut Progress<'_>,
         work: impl FnOnce(&Connection, &str, &mut Progress<'_>) -> Result<T>,
     ) -> Result<T> {
+        let not_here = |error: Error| error.of_file(&self.path);
         let transaction = self
             .connection
-            .transaction_with_behavior(TransactionBehavior::Immediate)?;
+            .transaction_with_behavior(TransactionBehavior::Immediate)
+            .map_err(|error| not_here(error.into()))?;
         transaction.execute_batch("DELETE FROM temp.change; DELETE FROM temp.touched;")?;
         let done = work(&transaction, &self.author, progress).and_then(|value| {
             self.index.follow(&transaction, progress)?;
@@ -205,7 +227,7 @@ impl<D: Derived> Store<D> {
         if done.is_err() {
             self.index = D::default();
         }
-        done
+        done.map_err(|error| error.of_file(&self.path))
     }
 }
 

@@ -57,10 +57,11 @@ pub(super) fn create(
         return Err(Error::file(folder, ErrorKind::NotFound.into()));
     }
     let making = Making::beside(path);
-    make(&making.0, fill)?;
+    // The temporary name says nothing to the caller.
+    make(&making.0, fill).map_err(|error| error.of_file(path))?;
     making.publish(path)?;
     drop(making);
-    open(path)
+    Ok(open(path)?.0)
 }
 
 /// Writes all data of `connection` to a new corpus file at `path`, whole or not at all; works even if the file of
@@ -91,10 +92,10 @@ fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()>
 }
 
 /// A corpus under construction, under a temporary name; the file is removed if the work fails.
-struct Making(PathBuf);
+pub(super) struct Making(PathBuf);
 
 impl Making {
-    fn beside(path: &Path) -> Self {
+    pub(super) fn beside(path: &Path) -> Self {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         Self(path.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple())))
     }
@@ -217,7 +218,70 @@ fn unchanging(path: &Path) -> String {
     format!("file:{root}{name}?immutable=1")
 }
 
-pub(super) fn open(path: &Path) -> Result<Connection> {
+/// The upgrade of a file of an older version, which happens when it is opened.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Upgrade {
+    /// The version of the schema before.
+    pub from: i32,
+    /// The version of the schema now.
+    pub to: i32,
+    /// The copy of the file as it was, beside it.
+    pub kept: PathBuf,
+}
+
+/// Opens the file; one of an older version is copied beside itself, and upgraded.
+pub(super) fn open(path: &Path) -> Result<(Connection, Option<Upgrade>)> {
+    let (mut connection, from) = checked(path)?;
+    let mut upgrade = None;
+    if from < SCHEMA_VERSION {
+        let kept = keep(&connection, path, from)?;
+        raise(&mut connection, |_| Ok(())).map_err(|error| error.of_file(path))?;
+        upgrade = Some(Upgrade {
+            from,
+            to: SCHEMA_VERSION,
+            kept,
+        });
+    }
+    finish(&connection, path)?;
+    Ok((connection, upgrade))
+}
+
+/// Opens somebody else's file, which stays as it is: one of an older version is copied beside the file `own`, and the
+/// copy is upgraded; it is removed with the second value.
+pub(super) fn open_unchanged(path: &Path, own: &Path) -> Result<(Connection, Option<Making>)> {
+    let (connection, version) = checked(path)?;
+    if version >= SCHEMA_VERSION {
+        finish(&connection, path)?;
+        return Ok((connection, None));
+    }
+    let making = Making::beside(own);
+    super::dump::copy(&connection, &making.0).map_err(|error| error.of_file(own))?;
+    drop(connection);
+    let mut copy = connect(&making.0)?;
+    configure(&mut copy)?;
+    raise(&mut copy, |_| Ok(()))?;
+    finish(&copy, path)?;
+    Ok((copy, Some(making)))
+}
+
+/// Copies a file of an older version beside itself, under a free name with its version, and returns that.
+fn keep(connection: &Connection, path: &Path, version: i32) -> Result<PathBuf> {
+    let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().map(|it| it.to_string_lossy());
+    let ending = ending.map_or(String::new(), |it| format!(".{it}"));
+    let mut kept = path.with_file_name(format!("{stem}.version-{version}{ending}"));
+    let mut count = 1;
+    while kept.exists() {
+        count += 1;
+        kept = path.with_file_name(format!("{stem}.version-{version} ({count}){ending}"));
+    }
+    copy(connection, &kept).map_err(|error| error.of_file(path))?;
+    Ok(kept)
+}
+
+/// Returns the connection to a file and the version of its schema; refuses a file that is no corpus, or that a newer
+/// program wrote.
+fn checked(path: &Path) -> Result<(Connection, i32)> {
     let refuse = |reason: String, remedy: Remedy| Error::NotACorpus {
         path: path.to_owned(),
         reason,
@@ -281,23 +345,26 @@ pub(super) fn open(path: &Path) -> Result<Connection> {
             "take the file as untrusted: somebody has put code into it".into(),
         ));
     }
-    if version < SCHEMA_VERSION {
-        raise(&mut connection, |_| Ok(()))?;
-    }
-    let unknown = roles::unknown(&connection)?;
+    Ok((connection, version))
+}
+
+/// Refuses a file of this version with roles of a newer program, and adds the roles that it lacks.
+fn finish(connection: &Connection, path: &Path) -> Result<()> {
+    let unknown = roles::unknown(connection)?;
     if !unknown.is_empty() {
-        return Err(refuse(
-            format!(
+        return Err(Error::NotACorpus {
+            path: path.to_owned(),
+            reason: format!(
                 "its tiers may have roles that this program does not know: {}",
                 unknown.join(", ")
             ),
-            "open it with a newer version of Chereme".into(),
-        ));
+            remedy: "open it with a newer version of Chereme".into(),
+        });
     }
     if !connection.is_readonly("main")? {
-        roles::add_missing(&connection)?;
+        roles::add_missing(connection)?;
     }
-    Ok(connection)
+    Ok(())
 }
 
 /// Returns whether any table has a row.
@@ -421,7 +488,8 @@ mod tests {
         // A role that an earlier version of the program did not know is added when this one opens the corpus.
         run("DELETE FROM tier_role WHERE name = 'comment'").expect("removed");
         assert!(tier("comment").is_err());
-        let again = open(&path).expect("opened");
+        let (again, upgrade) = open(&path).expect("opened");
+        assert_eq!(upgrade, None);
         assert_eq!(roles::unknown(&again).ok(), Some(Vec::new()));
         tier("comment").expect("stored");
         run("INSERT INTO tier_role (name, note) VALUES ('unheard', 'of a newer program')")
@@ -431,6 +499,67 @@ mod tests {
             error.to_string().contains("does not know: unheard"),
             "{error}"
         );
+    }
+
+    /// Writes a file of the third version.
+    fn write_old(path: &Path) {
+        let old = Connection::open(path).expect("made");
+        for step in &STEPS[..3] {
+            old.execute_batch(step).expect("a step");
+        }
+        old.pragma_update(None, "application_id", APPLICATION_ID)
+            .and_then(|()| old.pragma_update(None, "user_version", 3))
+            .expect("set");
+    }
+
+    fn version(path: &Path) -> i32 {
+        let connection = Connection::open(path).expect("opened");
+        let version = connection.pragma_query_value(None, "user_version", |row| row.get(0));
+        version.expect("a version")
+    }
+
+    #[test]
+    fn a_file_of_an_older_version_is_kept_beside_the_upgraded_one() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        for name in ["c.version-3.chereme", "c.version-3 (2).chereme"] {
+            // The file may not exist.
+            let _ = fs::remove_file(&path);
+            write_old(&path);
+            let (connection, upgrade) = open(&path).expect("opened");
+            drop(connection);
+            let kept = folder.path().join(name);
+            let (from, to) = (3, SCHEMA_VERSION);
+            assert_eq!(
+                upgrade,
+                Some(Upgrade {
+                    from,
+                    to,
+                    kept: kept.clone()
+                })
+            );
+            assert_eq!((version(&path), version(&kept)), (SCHEMA_VERSION, 3));
+            assert_eq!(open(&path).expect("opened").1, None, "once");
+        }
+    }
+
+    #[test]
+    fn a_file_of_somebody_else_is_read_as_one_of_this_version_and_stays() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let [own, shelf] = ["own", "theirs"].map(|it| folder.path().join(it));
+        let files = |folder: &Path| fs::read_dir(folder).expect("a folder").count();
+        for folder in [&own, &shelf] {
+            fs::create_dir(folder).expect("made");
+        }
+        let path = shelf.join("c.chereme");
+        write_old(&path);
+        let bytes = fs::read(&path).expect("read");
+        let (theirs, copy) = open_unchanged(&path, &own.join("mine.chereme")).expect("opened");
+        let count = theirs.query_row("SELECT count(*) FROM study", [], |row| row.get::<_, i64>(0));
+        assert_eq!(count.ok(), Some(0), "a table of a later version");
+        drop((theirs, copy));
+        assert_eq!(fs::read(&path).expect("read"), bytes);
+        assert_eq!((files(&own), files(&shelf)), (0, 1));
     }
 
     #[test]
@@ -505,7 +634,7 @@ mod tests {
         lock(&path, true);
         lock(&shelf, true);
         let opened =
-            open(&path).and_then(|connection| {
+            open(&path).and_then(|(connection, _)| {
                 Ok(connection
                     .query_row("SELECT count(*) FROM sign", [], |row| row.get::<_, i64>(0))?)
             });
