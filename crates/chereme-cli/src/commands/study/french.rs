@@ -257,6 +257,8 @@ pub(in crate::commands) const WORDS: Words = Words {
         ("delta", "delta"),
         ("interval", "intervalle"),
         ("p, all answers", "p, réponses"),
+        ("p (Holm), all answers", "p (Holm), réponses"),
         ("p, people", "p, personnes"),
+        ("p (Holm), people", "p (Holm), personnes"),
     ],
 };

@@ -98,12 +98,14 @@ fn groups(report: &Report, output: &mut Output) -> Result<()> {
 }
 
 fn comparisons(report: &Report, output: &mut Output) -> Result<()> {
+    // Corrected p stand beside the others if a comparison has several pairs, as on the page.
+    let corrects = report.comparisons.iter().any(|it| it.pairs.len() > 1);
     let rows = report.comparisons.iter().flat_map(|compared| {
-        let row = |pair: &Pair| pair_row(compared, pair, output);
+        let row = |pair: &Pair| pair_row(compared, pair, corrects, output);
         compared.pairs.iter().map(row).collect::<Vec<_>>()
     });
     let rows: Vec<Vec<String>> = rows.collect();
-    let titles = [
+    let mut titles = vec![
         "hypothesis",
         "question",
         "first",
@@ -111,15 +113,18 @@ fn comparisons(report: &Report, output: &mut Output) -> Result<()> {
         "delta",
         "interval",
         "p, all answers",
+        "p (Holm), all answers",
         "p, people",
+        "p (Holm), people",
     ];
+    titles.retain(|title| corrects || !title.contains("Holm"));
     if rows.is_empty() {
         return Ok(());
     }
     output.table(&titles, &rows)
 }
 
-fn pair_row(compared: &Compared, pair: &Pair, output: &Output) -> Vec<String> {
+fn pair_row(compared: &Compared, pair: &Pair, corrects: bool, output: &Output) -> Vec<String> {
     let language = output.language();
     let hypothesis = compared.hypothesis.as_ref().map(|it| it.name.clone());
     let question = match compared.part.as_str() {
@@ -136,8 +141,12 @@ fn pair_row(compared: &Compared, pair: &Pair, output: &Output) -> Vec<String> {
         format!("[{}; {}]", number(it.low), number(it.high))
     }));
     for test in [&pair.pooled, &pair.people] {
-        let p = test.found().map(|it| numbers::p(it.p_holm, language));
-        row.push(p.unwrap_or_else(|| "-".to_owned()));
+        let shown = |p: Option<f64>| p.map_or_else(|| "-".to_owned(), |p| numbers::p(p, language));
+        let found = test.found();
+        row.push(shown(found.map(|it| it.p)));
+        if corrects {
+            row.push(shown(found.map(|it| it.p_holm)));
+        }
     }
     row
 }
