@@ -157,6 +157,7 @@ impl Output {
         let place = known.and_then(chereme_corpus::Error::place);
         let remedy = known.and_then(chereme_corpus::Error::remedy);
         let message = known.map_or_else(|| format!("{error:#}"), ToString::to_string);
+        let is_list = matches!(known, Some(chereme_corpus::Error::Several { .. }));
         if self.json {
             self.document = Some(json!({
                 "error": { "message": message, "where": place, "remedy": remedy }
@@ -166,9 +167,13 @@ impl Output {
             let _ = self.text.flush();
             let spoken = |text: &str| self.spoken(text);
             let label = |text: Text, value: String| fill(self.say(text), &[("what", &value)]);
-            write_to_stderr(&label(trouble::ERROR, drawn_below(&message, &spoken)));
+            let said = match known.filter(|_| is_list) {
+                Some(list) => list.spoken(self.language, &spoken),
+                None => drawn_below(&message, &spoken),
+            };
+            write_to_stderr(&label(trouble::ERROR, said));
             if let Some(place) = place.filter(|place| !message.contains(place.as_str())) {
-                write_to_stderr(&label(trouble::WHERE, place));
+                write_to_stderr(&label(trouble::WHERE, spoken(&place)));
             }
             if let Some(remedy) = remedy {
                 write_to_stderr(&label(trouble::WHAT_TO_DO, spoken(remedy.text())));

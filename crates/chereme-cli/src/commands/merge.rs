@@ -155,7 +155,7 @@ fn list(conflicts: &[CorpusConflict], output: &mut Output) -> Result<()> {
         return output.line(output.say(words::NO_CONFLICTS));
     }
     let shown = |side: &Option<chereme_corpus::Candidate>| match side {
-        Some(side) => side.to_string(),
+        Some(side) => output.spoken(&side.to_string()),
         None => output.say(words::GONE).to_owned(),
     };
     let rows: Vec<Vec<String>> = conflicts
@@ -167,7 +167,7 @@ fn list(conflicts: &[CorpusConflict], output: &mut Output) -> Result<()> {
             vec![
                 it.number.to_string(),
                 it.what.clone(),
-                it.place.clone(),
+                output.spoken(&it.place),
                 shown(&it.mine),
                 shown(&it.theirs),
                 it.from.clone(),
@@ -293,6 +293,10 @@ pub(super) fn conflicts(cli: &Cli, args: &ConflictsArgs, output: &mut Output) ->
         let numbers: Result<Vec<usize>, Error> = args.numbers.iter().map(number).collect();
         numbers?
     };
+    if numbers.is_empty() && !args.numbers.is_empty() {
+        list(&[], output)?;
+        return output.document(json!({ "total": 0, "rows": [] }));
+    }
     if numbers.is_empty() {
         return Err(Error::wrong("which conflicts?")
             .advise("name them by their numbers, or write all")

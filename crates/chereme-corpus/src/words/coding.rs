@@ -148,6 +148,10 @@ pub(super) const CODING: &[(&str, &str)] = &[
         "{tier} n’est pas un Symbolic_Subdivision : ses annotations n’ont pas d’ordre à changer",
     ),
     (
+        "{annotation} from {start} to {end} must lie inside one annotation of {tier}; {other} there lasts from {from} to {to}",
+        "{annotation}, de {start} à {end}, doit se trouver dans une annotation de {tier} ; {other} y dure de {from} à {to}",
+    ),
+    (
         "{annotation} from {start} to {end} must lie inside one annotation of {tier}",
         "{annotation}, de {start} à {end}, doit se trouver dans une annotation de {tier}",
     ),
@@ -245,7 +249,7 @@ pub(super) const CODING: &[(&str, &str)] = &[
     ),
     (
         "{parent} has {other} on the Symbolic_Association {tier} already; change that one, or remove {annotation}",
-        "{parent} a déjà {other} sur le Symbolic_Association {tier} ; modifiez celle-ci, ou retirez {annotation}",
+        "{parent} a déjà {other} sur {tier}, qui est Symbolic_Association ; modifiez celle-ci, ou retirez {annotation}",
     ),
     (
         "{annotation} on {tier} has place {order} among its siblings; it must be {expected}",

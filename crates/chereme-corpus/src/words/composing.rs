@@ -436,6 +436,10 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "\"default\", \"measured\" ou un fichier de langage corporel",
     ),
     ("the word to spell", "le mot à épeler"),
+    ("the factor", "le facteur"),
+    ("the angle", "l’angle"),
+    ("the number of times", "le nombre de fois"),
+    ("the time", "le temps"),
     (
         "the text to cue, in quotes",
         "le texte à coder, entre guillemets",

@@ -3,7 +3,7 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 36] = [
+const NOUNS: [(&str, &str, &str, &str); 37] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("answers", "answer", "réponse", "réponses"),
     ("attributes", "attribute", "attribut", "attributs"),
@@ -56,6 +56,7 @@ const NOUNS: [(&str, &str, &str, &str); 36] = [
     ("studies", "study", "étude", "études"),
     ("symbols", "symbol", "symbole", "symboles"),
     ("tiers", "tier", "acteur", "acteurs"),
+    ("times", "time", "fois", "fois"),
     ("tokens", "token", "occurrence", "occurrences"),
     ("units", "unit", "unité", "unités"),
     ("values", "value", "valeur", "valeurs"),

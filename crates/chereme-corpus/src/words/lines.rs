@@ -269,4 +269,11 @@ pub(super) const GENERAL: &[(&str, &str)] = &[
     ("{cm} cm back", "{cm} cm en arrière"),
     ("{names} and {n} more", "{names} et {n} autres"),
     ("{file}, line {n}: {what}", "{file}, ligne {n} : {what}"),
+    ("{file}, line {n}", "{file}, ligne {n}"),
+    ("the tier {name}", "l’acteur {name}"),
+    ("once", "une fois"),
+    (
+        "the {limb} wrist or forearm is at its limit in frame {n}: the reading is {angle} beyond it",
+        "le poignet ou l’avant-bras {limb} est à sa limite à l’image {n} : la lecture la dépasse de {angle}",
+    ),
 ];

@@ -131,6 +131,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "{path} ne s’ouvre pas comme corpus : {why}",
     ),
     (
+        "{path}: it may not be read or written",
+        "{path} : ni lecture ni écriture permise",
+    ),
+    (
         "{path}: there is nothing of this name",
         "{path} : rien ne porte ce nom",
     ),
@@ -313,6 +317,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "{what}, de {start} à {end}, chevauche {other} ({from} à {to}) sur l’acteur {tier} de {recording}",
     ),
     ("free next to it: {times}", "libre à côté : {times}"),
+    (
+        "no time next to it is free: move or shorten the other one first",
+        "aucun temps n’est libre à côté : déplacez ou raccourcissez d’abord l’autre",
+    ),
     ("a new annotation", "une nouvelle annotation"),
     ("the right hand", "la main droite"),
     ("the left hand", "la main gauche"),
@@ -553,15 +561,71 @@ fn in_french(text: &str, own: &[Forms]) -> Option<String> {
             return each.collect::<Vec<_>>().join(" ; ");
         }
         let side = side_in_french(blank, part).map(str::to_owned);
-        side.or_else(|| in_french(part, own))
-            .unwrap_or_else(|| part.to_owned())
+        let spoken = || in_french(part, own).filter(|_| !is_quoted(part));
+        side.or_else(spoken).unwrap_or_else(|| part.to_owned())
     };
     if text.starts_with('.') && text == endings(Language::English) {
         return Some(endings(Language::French));
     }
     let mut all = forms(own);
     let translated = all.find_map(|(english, french)| carried(text, english, french, &part));
-    translated.or_else(|| counted_in_french(text))
+    translated
+        .or_else(|| counted_in_french(text))
+        .or_else(|| placed_in_french(text, &|it| part("", it)))
+        .or_else(|| by_lines(text, &|it| part("", it)))
+}
+
+/// Returns whether a text is somebody's own words in quotation marks, which are the same in every language.
+fn is_quoted(text: &str) -> bool {
+    let inner = text.strip_prefix('"').and_then(|it| it.strip_suffix('"'));
+    inner.is_some_and(|it| !it.replace("\\\"", "").contains('"'))
+}
+
+/// Returns a text of several lines, each put into words alone; nothing if that changes none.
+fn by_lines(text: &str, say: &dyn Fn(&str) -> String) -> Option<String> {
+    if !text.contains('\n') {
+        return None;
+    }
+    let said = text.lines().map(say).collect::<Vec<_>>().join("\n");
+    Some(said).filter(|said| said != text)
+}
+
+/// Returns a thing with its place or time in French: `"Gloss" of "bol"`, `"BOL" at 1.150s`, `"BOL" from 1.150s to 2.000s`,
+/// or a list of spans such as `0.000s to 1.150s, 2.000s and later`.
+fn placed_in_french(text: &str, say: &dyn Fn(&str) -> String) -> Option<String> {
+    let span = |text: &str| match text.split_once(" to ") {
+        Some((start, end)) if is_time(start) && is_time(end) => Some(format!("{start} à {end}")),
+        _ => text
+            .strip_suffix(" and later")
+            .filter(|start| is_time(start))
+            .map(|start| format!("{start} et plus tard")),
+    };
+    let spans: Option<Vec<String>> = text.split(", ").map(span).collect();
+    if let Some(spans) = spans {
+        return Some(spans.join(", "));
+    }
+    if let Some((what, whole)) = text.split_once(" of ")
+        && is_quoted(what)
+        && (is_quoted(whole) || whole.starts_with("recording:"))
+    {
+        return Some(format!("{what} de {whole}"));
+    }
+    if let Some((what, times)) = text.rsplit_once(" from ")
+        && let Some(span) = span(times)
+    {
+        return Some(format!("{} de {span}", say(what)));
+    }
+    let (what, at) = text.rsplit_once(" at ")?;
+    is_time(at).then(|| format!("{} à {at}", say(what)))
+}
+
+/// Returns whether a text is a time such as `1.150s`.
+fn is_time(text: &str) -> bool {
+    let number = text.strip_suffix('s').map(|it| it.trim_start_matches('-'));
+    number.is_some_and(|it| {
+        it.starts_with(|c: char| c.is_ascii_digit())
+            && it.bytes().all(|it| it.is_ascii_digit() || it == b'.')
+    })
 }
 
 /// Returns a side in French: feminine for `{side}`, as hands are, and masculine for `{limb}`, as arms and wrists are.
@@ -584,6 +648,10 @@ fn carried(
     other: &str,
     convert: &dyn Fn(&str, &str) -> String,
 ) -> Option<String> {
+    // A form of one line fits no text of several, whose parts it would mix.
+    if text.contains('\n') && !form.contains('\n') {
+        return None;
+    }
     let mut values = Vec::new();
     let mut parts = form.split('{');
     let mut rest = text.strip_prefix(parts.next()?)?;
@@ -624,6 +692,57 @@ mod tests {
             let same = carried(english, english, english, &|_, it| it.to_owned());
             assert_eq!(same.as_deref(), Some(english), "it is of its own form");
         }
+    }
+
+    #[test]
+    fn lists_of_failures_and_things_with_times_keep_their_parts() {
+        let say = |text: &str| message(text, Language::French).unwrap_or_else(|| text.to_owned());
+        for (english, french) in [
+            (
+                "\"CHAT\" from 1.829s to 2.244s",
+                "\"CHAT\" de 1.829s à 2.244s",
+            ),
+            ("\"from 1s to 2s\" at 3.5s", "\"from 1s to 2s\" à 3.5s"),
+            ("\"x\" at home", "\"x\" at home"),
+            (
+                "\"Gloss\" of recording:\"bol\"",
+                "\"Gloss\" de recording:\"bol\"",
+            ),
+            (
+                "the recording \"bol\" has no track of markers",
+                "l’enregistrement \"bol\" n’a pas de piste de marqueurs",
+            ),
+            (
+                "free next to it: 0.000s to 1.150s, 2.000s and later",
+                "libre à côté : 0.000s à 1.150s, 2.000s et plus tard",
+            ),
+            (
+                "no sign is called \"the body\"",
+                "aucun signe ne s’appelle \"the body\"",
+            ),
+            (
+                "the new annotation from 0s to 1s must lie inside one annotation of the tier \"Gloss\"; \"BOL\" at 1.150s there lasts from 1.150s to 1.630s",
+                "la nouvelle annotation, de 0s à 1s, doit se trouver dans une annotation de l’acteur \"Gloss\" ; \"BOL\" à 1.150s y dure de 1.150s à 1.630s",
+            ),
+        ] {
+            assert_eq!(say(english), french);
+        }
+        let wrong = |message: &str, place: &str, remedy: &'static str| {
+            crate::Error::wrong(message).at(place).advise(remedy)
+        };
+        let errors = vec![
+            wrong(
+                "a new annotation from 1s to 2s overlaps \"BOL\" (1s to 3s) on the tier \"G\" of \"bol\"",
+                "a.txt, line 1",
+                "free next to it: 0s to 1s",
+            ),
+            wrong("nothing changed", "a.txt, line 2", "write which one"),
+        ];
+        let error = crate::Error::Several { errors };
+        let french = "2 modifications sont impossibles, et aucune n’a été faite :\n\
+                      a.txt, ligne 1 : une nouvelle annotation, de 1s à 2s, chevauche \"BOL\" (1s à 3s) sur l’acteur \"G\" de \"bol\" (libre à côté : 0s à 1s)\n\
+                      a.txt, ligne 2 : rien n’a changé (écrivez laquelle)";
+        assert_eq!(error.spoken(Language::French, &say), french);
     }
 
     #[test]

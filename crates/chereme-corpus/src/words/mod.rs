@@ -36,6 +36,8 @@ mod editing;
 mod filming;
 mod findings;
 mod foreign;
+#[cfg(test)]
+mod french_tests;
 mod guides;
 pub mod history;
 mod importing;

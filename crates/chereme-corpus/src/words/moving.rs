@@ -109,8 +109,8 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "importez un fichier .c3d ou .trc d’un codeur ; d’autres étiquettes se traduisent avec --labels FICHIER",
     ),
     (
-        "{name} has no track of markers",
-        "{name} n’a pas de piste de marqueurs",
+        "\"{name}\" has no track of markers",
+        "\"{name}\" n’a pas de piste de marqueurs",
     ),
     (
         "{n} labels of {name} are known as markers of a cuer's hand or face",
