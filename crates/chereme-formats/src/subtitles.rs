@@ -57,10 +57,6 @@ pub fn read(bytes: &[u8]) -> Result<(Transcript, Vec<Finding>), Error> {
     let mut follows_cue = false;
     let mut lines = (1u64..).zip(text.lines()).peekable();
     while let Some((line, text)) = lines.next() {
-        // Text behind the word that begins a WebVTT file is a heading, which is lost.
-        if is_vtt && line == 1 && text.trim_start_matches('\u{feff}').trim() == "WEBVTT" {
-            continue;
-        }
         if is_vtt && is_block(text) {
             findings.add("blocks of notes and styles", || {
                 Finding::note(line, format!("the block {:?} was left out", text.trim()))

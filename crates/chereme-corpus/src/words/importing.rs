@@ -77,6 +77,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "écrivez .bvh, qui contient un squelette immobile",
     ),
     (
+        "the column {name} is kept as an attribute of each sign",
+        "la colonne {name} est gardée comme attribut de chaque signe",
+    ),
+    (
+        "write 00:00:01,000 --> 00:00:02,500",
+        "écrivez 00:00:01,000 --> 00:00:02,500",
+    ),
+    (
         "the recording {name} has no tokens",
         "l’enregistrement {name} n’a pas d’occurrences",
     ),

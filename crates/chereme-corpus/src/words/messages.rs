@@ -317,10 +317,6 @@ const MESSAGES: &[(&str, &str)] = &[
         "{what}, de {start} à {end}, chevauche {other} ({from} à {to}) sur l’acteur {tier} de {recording}",
     ),
     ("free next to it: {times}", "libre à côté : {times}"),
-    (
-        "no time next to it is free: move or shorten the other one first",
-        "aucun temps n’est libre à côté : déplacez ou raccourcissez d’abord l’autre",
-    ),
     ("a new annotation", "une nouvelle annotation"),
     ("the right hand", "la main droite"),
     ("the left hand", "la main gauche"),

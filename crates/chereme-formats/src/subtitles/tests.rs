@@ -61,7 +61,7 @@ fn skipped_lines_are_reported() {
     let text = "WEBVTT\n\nNOTE\nx\n\n00:00.000 --> 00:01.000 line:0\na\n\nsoon --> later\nb\n";
     let (_, findings) = read(text.as_bytes()).expect("subtitles");
     let lines: Vec<Option<u64>> = findings.iter().map(|finding| finding.line).collect();
-    assert_eq!(lines, [Some(3), Some(6), Some(9)], "{findings:?}");
+    assert_eq!(lines, [Some(1), Some(3), Some(6), Some(9)], "{findings:?}");
 }
 
 #[test]
