@@ -9,6 +9,8 @@ pub(crate) mod eaf;
 mod enriched;
 mod foreign;
 mod long;
+#[cfg(test)]
+mod mixed_tests;
 mod notation;
 #[cfg(feature = "parquet")]
 mod parquet;

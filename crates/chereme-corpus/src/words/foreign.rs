@@ -212,4 +212,16 @@ pub(super) const FOREIGN: &[(&str, &str)] = &[
     ("annotations of NOVA", "des annotations de NOVA"),
     ("a transcript of Transana", "une transcription de Transana"),
     ("a project of MAXQDA", "un projet de MAXQDA"),
+    (
+        "the path is not UTF-8, and as text it is that of another file: {path}",
+        "le chemin n’est pas en UTF-8, et en texte c’est celui d’un autre fichier : {path}",
+    ),
+    (
+        "it is no regular file, but a pipe, a socket or a device",
+        "ce n’est pas un fichier ordinaire, mais un tube, une socket ou un périphérique",
+    ),
+    (
+        "save what comes from it as a file, and import that",
+        "enregistrez dans un fichier ce qui en vient, et importez-le",
+    ),
 ];

@@ -8,18 +8,6 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
     ),
     ("the file has {n} bytes", "le fichier a {n} octets"),
     (
-        "the path is not UTF-8, and as text it is that of another file: {path}",
-        "le chemin n’est pas en UTF-8, et en texte c’est celui d’un autre fichier : {path}",
-    ),
-    (
-        "it is no regular file, but a pipe, a socket or a device",
-        "ce n’est pas un fichier ordinaire, mais un tube, une socket ou un périphérique",
-    ),
-    (
-        "save what comes from it as a file, and import that",
-        "enregistrez dans un fichier ce qui en vient, et importez-le",
-    ),
-    (
         "numbers in the column {name} may have a comma before decimals or before thousands; {text} was read as {number}, and so were {n} in all",
         "les nombres de la colonne {name} peuvent avoir une virgule avant les décimales ou avant les milliers ; {text} a été lu {number}, comme {n} en tout",
     ),

@@ -46,6 +46,7 @@ pub mod merge;
 mod messages;
 mod moving;
 mod notes;
+mod parts;
 mod pointed;
 mod publishing;
 mod queries;
