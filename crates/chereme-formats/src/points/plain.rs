@@ -132,7 +132,9 @@ pub(super) fn begins(lines: &Lines<'_>) -> bool {
         0 => others <= named.used.len(),
         _ => 3 * others <= named.used.len(),
     };
-    fits && (is_clear || texts == 0 && least == 1)
+    // Two numbers called x and y among others may be anything.
+    let is_alone = least == 2 && named.points.len() == 1 && named.quality.is_none();
+    fits && (!is_alone || others == 0) && (is_clear || texts == 0 && least == 1)
 }
 
 pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layout, Error> {
