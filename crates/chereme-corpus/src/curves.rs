@@ -186,7 +186,7 @@ mod tests {
         std::fs::write(&file, text).expect("written");
         let path = folder.path().join("a.chereme");
         let mut corpus = Corpus::create(&path, "A").expect("made");
-        let recipe = format!("sigml {:?} | repeat 8", file.display().to_string());
+        let recipe = format!("sigml {:?} | repeat 30", file.display().to_string());
         let (_, made, _) = corpus.make(&recipe).expect("made");
         assert!(
             made.clip.frames() > crate::movement::BLOCK_FRAMES,
