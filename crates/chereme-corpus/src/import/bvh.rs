@@ -100,10 +100,12 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         super::clock::place(job, recording, &[track], &mut report)?;
     }
     let found_by_reader = summary.findings.into_iter().map(|finding| {
-        let mends = finding.mend == Some(Mend::RootOrder) && !job.options.mend_root;
+        let is_order = finding.mend == Some(Mend::RootOrder);
         let mut finding = ReportFinding::from(finding);
-        if mends {
-            finding.remedy = Some(mend_order());
+        match job.options.mend_root {
+            true if is_order => (finding.severity, finding.remedy) = ("note", None),
+            false if is_order => finding.remedy = Some(mend_order()),
+            _ => {}
         }
         finding
     });
