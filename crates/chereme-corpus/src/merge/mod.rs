@@ -95,8 +95,9 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<MergeReport> {
         let author = "merge";
-        let theirs = Self::open(other, author)?;
-        let base = base.map(|path| Self::open(path, author)).transpose()?;
+        let open = |path: &Path| Self::open_unchanged(path, self.path(), author);
+        let theirs = open(other)?;
+        let base = base.map(open).transpose()?;
         let from = other
             .file_name()
             .map(|name| name.to_string_lossy().into_owned())
