@@ -20,8 +20,8 @@ use identity::{Matching, matched, matched_tiers};
 use serde::Serialize;
 use std::collections::BTreeMap;
 
-/// The greatest difference, in microseconds, of times that count as equal.
-pub const TOLERANCE: i64 = 1000;
+/// The greatest difference, in microseconds, of times that count as equal: less than the millisecond to which files round.
+pub const TOLERANCE: i64 = 999;
 
 /// The differences of two documents, from the first to the second.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]

@@ -513,3 +513,14 @@ fn golden_differences_and_merges() {
     }
     compare("differences", &out);
 }
+
+#[test]
+fn a_change_of_one_millisecond_is_a_change_and_less_is_rounding() {
+    let (before, after) = ("A: a1 368-500 x", "A: a1 369-500 x");
+    let found = diff(&document(before), &document(after));
+    assert_eq!(found.moved.len(), 1, "{found:?}");
+    merges(before, before, after, after, 0);
+    let mut rounded = document(before);
+    rounded.tiers[0].annotations[0].span = own("", 368_600, 500_400, "").span;
+    assert_eq!(diff(&document(before), &rounded), Difference::default());
+}
