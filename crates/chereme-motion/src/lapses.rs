@@ -2,7 +2,7 @@
 //!
 //! When cameras or gloves lose a limb, programs write its last posture again and again, write zeros, or follow
 //! something else for a moment. [`Lapses`] finds these frames by their jumps: a lapse begins or ends with a step that is far
-//! longer than those around it. A hand that is held still ends without a jump, and is none. Nothing changes a clip.
+//! longer than those around it. A hand that is held still moves on without a jump, and has no lapse. Nothing changes a clip.
 
 use std::fmt;
 use std::ops::Range;
@@ -21,7 +21,7 @@ pub struct Lapse {
     pub frames: Range<usize>,
     /// The joints that were lost.
     pub limb: Limb,
-    /// What stands in their place.
+    /// The numbers in their place.
     pub what: Lost,
 }
 
@@ -36,7 +36,7 @@ pub enum Limb {
     Fingers(Side),
 }
 
-/// What a file holds in place of lost movement; distances in metres.
+/// The numbers that a file has in place of lost movement; distances in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Lost {
     /// The posture of the frame before, up to a jump of this distance.

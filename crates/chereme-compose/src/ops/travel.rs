@@ -286,7 +286,7 @@ impl Part {
     }
 }
 
-/// The length in metres below which a leg leaves the hand where it is.
+/// The length in metres below which a leg does not move the hand.
 const STANDS: f64 = 1e-6;
 
 impl Travel {

@@ -12,7 +12,7 @@ pub(super) struct Deeds {
     moved: BTreeSet<i64>,
     merged: BTreeSet<i64>,
     split: BTreeSet<i64>,
-    /// The number of merges, each of which removes an annotation.
+    /// The number of merges; each removes an annotation.
     merges: u64,
     /// Annotations that got a value, by the sentence for it and the value.
     valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,

@@ -1,4 +1,4 @@
-//! What earlier versions of the program left out of the inputs of recipes: bodies, postures and places.
+//! Inputs of recipes that earlier versions of the program left out: bodies, postures and places.
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -519,7 +519,7 @@ const OWNED: [(&str, &str, &str); 15] = [
     ("study_answer", "participant_id", "study_participant"),
 ];
 
-/// Returns the rows of which a row, with references by uid, is a part.
+/// Returns the owners of a row, with references by uid: the rows that it is a part of.
 pub(crate) fn owners(table: &str, image: &Image) -> Vec<Key> {
     let own = OWNED.iter().filter(|it| it.0 == table);
     own.filter_map(|(_, column, owner)| {

@@ -6,8 +6,8 @@ use super::tests::{Place, address, export};
 use super::*;
 use crate::{ListFilter, ListKind, unheard};
 
-/// A recording that moves, with tokens, translations in two languages and markers; each is left out of the formats of
-/// which another one has something.
+/// A recording that moves, with tokens, translations in two languages and markers; each is left out of
+/// the formats that only another one has something for.
 fn mixed(place: &mut Place) -> Corpus {
     let own = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../corpus");
     let points = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\n\

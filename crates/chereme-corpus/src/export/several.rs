@@ -22,7 +22,7 @@ use crate::progress::{Progress, Step, Unit};
 /// The number of names that a note lists.
 const SHOWN: usize = 12;
 
-/// What a file of the folder holds.
+/// The contents of a file of the folder.
 struct Part {
     /// The name of the recording, or the gloss of the token.
     name: String,
@@ -30,7 +30,7 @@ struct Part {
 }
 
 enum Content {
-    /// What an export of its own would write.
+    /// The same as an export of its own.
     What(ExportWhat),
     /// Tiers of a recording as subtitles.
     Subtitles(i64, Vec<TierRow>),

@@ -133,7 +133,7 @@ fn is_changed(key: &Key, bases: &[Image], row: &Image) -> bool {
     bases.iter().all(|base| rows::differ(&key.0, base, row))
 }
 
-/// Returns the topmost row with a property among a row and those it is a part of; `above` holds what is known.
+/// Returns the topmost row with a property among a row and those it is a part of; `above` holds the known ones.
 fn top(
     side: &Side<'_>,
     key: &Key,

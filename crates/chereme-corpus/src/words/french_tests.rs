@@ -34,7 +34,7 @@ fn english(text: &str) -> Vec<String> {
         .collect()
 }
 
-/// Collects messages, and those of which English words are left.
+/// Collects messages, and those that keep English words.
 #[derive(Default)]
 struct Heard {
     count: usize,

@@ -45,7 +45,7 @@ pub struct Tier<'a> {
     pub id: Text<'a>,
     /// `speaker`: the id of a speaker.
     pub speaker: Option<Text<'a>>,
-    /// `category`, such as `v` for what is said.
+    /// `category`, such as `v` for speech.
     pub category: Text<'a>,
     /// `display-name`.
     pub name: Option<Text<'a>>,

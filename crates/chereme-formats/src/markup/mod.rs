@@ -113,7 +113,7 @@ pub(crate) fn medium(url: &str) -> Media {
 /// Returns the id of an annotation. It depends on the name of its tier and its start alone, so that it stays the same if
 /// the file gets other annotations.
 pub(crate) fn id(tier: &str, start: Instant) -> String {
-    // FNV-1a, of which 32 bits are enough: ids that are the same get numbers.
+    // FNV-1a, cut to 32 bits: ids that are the same get numbers.
     let hash = tier.bytes().fold(0x811c_9dc5_u32, |hash, byte| {
         (hash ^ u32::from(byte)).wrapping_mul(0x0100_0193)
     });

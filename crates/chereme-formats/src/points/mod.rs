@@ -42,7 +42,7 @@ use rows::{Layout, Rows};
 pub enum PointFile {
     /// The CSV of OptiTrack Motive.
     Motive,
-    /// The CSV of Vicon Nexus: sections, of which `Trajectories` holds points.
+    /// The CSV of Vicon Nexus: sections; `Trajectories` holds points.
     Vicon,
     /// The TSV of Qualisys Track Manager.
     Qualisys,

@@ -145,7 +145,7 @@ fn sorted<'t>(
     })
 }
 
-/// What a column of Motive holds.
+/// The content of a column of Motive.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Kind {
     /// Places of seen markers.
