@@ -37,7 +37,8 @@ mod filming;
 mod findings;
 mod foreign;
 #[cfg(test)]
-mod french_tests;
+#[path = "tests/french.rs"]
+mod french;
 mod guides;
 pub mod history;
 mod importing;
