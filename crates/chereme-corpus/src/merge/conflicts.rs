@@ -485,18 +485,17 @@ fn theirs(connection: &Connection, open: &Open) -> Result<()> {
         (Some(theirs), Some(id)) => {
             let mut image = local(&side, &open.table, theirs)?;
             image.remove("uid");
+            let mine = side.row(&open.table, &open.uid)?.unwrap_or_default();
             if open.table != "annotation" {
-                let mine = side.row(&open.table, &open.uid)?.unwrap_or_default();
                 let base = open.base.clone().unwrap_or_default();
                 image.retain(|column, _| {
                     theirs.get(column) != base.get(column) && theirs.get(column) != mine.get(column)
                 });
             }
             db::update(connection, &open.table, id, &image)?;
-            let name = |image: Option<&Image>| image?.get("name")?.as_str().map(str::to_owned);
+            let name = |image: &Image| image.get("name").and_then(Value::as_str).map(str::to_owned);
             if open.table == "signer"
-                && let (Some(old), Some(new)) = (name(open.mine.as_ref()), name(Some(theirs)))
-                && old != new
+                && let (Some(old), Some(new)) = (name(&mine), name(&image))
             {
                 edits::rename_participant(connection, &old, &new)?;
             }
@@ -531,6 +530,8 @@ fn remove_whole(connection: &Connection, table: &str, id: i64) -> Result<()> {
             return Ok(());
         }
         "annotation" => return remove(connection, id),
+        // It follows from its annotation, which stays.
+        "token" if signs::token(connection, id)?.annotation_id.is_some() => return Ok(()),
         _ => {}
     }
     for (part, _, id) in db::owned(connection, table, id)? {

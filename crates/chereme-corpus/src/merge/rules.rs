@@ -20,6 +20,7 @@ impl Work<'_> {
     pub(super) fn keep_rules(&mut self, recordings: &BTreeSet<i64>) -> Result<()> {
         for &recording in recordings {
             let mut known = None;
+            let mut followed = BTreeSet::new();
             // Each round takes back a change, or moves annotations below others.
             for _ in 0..=2 * self.came.len() {
                 let found = violations(self.connection, recording)?;
@@ -33,7 +34,7 @@ impl Work<'_> {
                 let mut settled = false;
                 for violation in found {
                     if !known.contains(&key(self.connection, &violation)?) {
-                        settled |= self.settle(&violation)?;
+                        settled |= self.settle(&violation, &mut followed)?;
                     }
                 }
                 if !settled {
@@ -56,20 +57,38 @@ impl Work<'_> {
         }
     }
 
-    /// Removes the cause of a violation if it is a change of the other side; returns whether it did.
-    fn settle(&mut self, violation: &Violation) -> Result<bool> {
+    /// Removes the cause of a violation if it is a change of the other side; returns whether it did. `followed` holds the
+    /// symbolic annotations that followed such a change.
+    fn settle(&mut self, violation: &Violation, followed: &mut BTreeSet<i64>) -> Result<bool> {
+        let own: Vec<i64> = violation.annotations().into_iter().map(number).collect();
+        for &id in &own {
+            // An earlier violation of this round may have removed it.
+            if db::uid_of(self.connection, "annotation", id)?.is_none() {
+                return Ok(true);
+            }
+        }
+        let near = self.near(&own)?;
         if let Violation::DerivedSpan {
             annotation,
             expected,
             ..
         } = violation
         {
-            let mut row = tiers::annotation(self.connection, number(*annotation))?;
-            (row.start_us, row.end_us) = (expected.start().micros(), expected.end().micros());
-            tiers::update_annotation(self.connection, &row)?;
-            return Ok(true);
+            let mut came = false;
+            for id in &near {
+                let uid = db::uid_of(self.connection, "annotation", *id)?;
+                came |=
+                    followed.contains(id) || uid.is_some_and(|uid| self.came.contains_key(&uid));
+            }
+            if came {
+                let mut row = tiers::annotation(self.connection, number(*annotation))?;
+                (row.start_us, row.end_us) = (expected.start().micros(), expected.end().micros());
+                tiers::update_annotation(self.connection, &row)?;
+                followed.insert(row.id);
+            }
+            return Ok(came);
         }
-        for id in self.near(violation)? {
+        for id in near {
             let Some(uid) = db::uid_of(self.connection, "annotation", id)? else {
                 continue;
             };
@@ -114,15 +133,14 @@ impl Work<'_> {
         self.conflict(key, (mine.as_ref(), theirs.as_ref()), None)
     }
 
-    /// Returns the annotations that may be the cause of a violation, the likeliest first: its own, those below them and
-    /// those above.
-    fn near(&self, violation: &Violation) -> Result<Vec<i64>> {
-        let own: Vec<i64> = violation.annotations().into_iter().map(number).collect();
-        let mut near = own.clone();
-        for &id in &own {
+    /// Returns the annotations that may be the cause of a violation of these, the likeliest first: themselves, those below
+    /// them and those above.
+    fn near(&self, own: &[i64]) -> Result<Vec<i64>> {
+        let mut near = own.to_vec();
+        for &id in own {
             near.extend(tiers::children(self.connection, id)?.iter().map(|it| it.id));
         }
-        for id in own {
+        for &id in own {
             near.extend(tiers::annotation(self.connection, id)?.parent_id);
         }
         Ok(near)
@@ -171,7 +189,7 @@ fn number(id: AnnotationId) -> i64 {
     i64::try_from(id.0).unwrap_or(i64::MAX)
 }
 
-/// Returns the annotations below an annotation, the deepest last.
+/// Returns all annotations below an annotation.
 fn with_children(connection: &Connection, id: i64) -> Result<Vec<i64>> {
     let mut all = Vec::new();
     let mut waiting = vec![id];

@@ -18,14 +18,13 @@ impl Work<'_> {
             return Ok(contested);
         }
         let mut above = Above::new();
-        let keys: Vec<&Key> = self.mine.touched.keys().collect();
-        for key in keys.into_iter().filter(|key| key.0 != "token") {
+        for (key, before) in self.mine.touched.iter().filter(|(key, _)| key.0 != "token") {
             let Some(row) = self.mine.row(&key.0, &key.1)? else {
                 continue;
             };
             let bases = match gone.contains(key) {
                 true => self.bases(key)?,
-                false => self.mine.touched[key].clone().into_iter().collect(),
+                false => before.clone().into_iter().collect(),
             };
             if is_changed(key, &bases, &row)
                 && let Some(top) = top(&self.mine, key, &mut above, &|it| Ok(gone.contains(it)))?

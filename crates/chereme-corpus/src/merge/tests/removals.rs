@@ -2,9 +2,11 @@
 
 use std::fs;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::Instant;
+use proptest::prelude::*;
 use rusqlite::types::Value as Cell;
 
 use super::{Decision, MergeReport};
@@ -20,8 +22,10 @@ struct Copies {
     theirs: Corpus,
 }
 
-impl Copies {
-    fn new() -> Self {
+/// Returns the bytes of the corpus that is copied.
+fn base() -> &'static [u8] {
+    static BASE: OnceLock<Vec<u8>> = OnceLock::new();
+    BASE.get_or_init(|| {
         let folder = tempfile::tempdir().expect("a folder");
         let path = |name: &str| folder.path().join(name);
         let mut files: Vec<PathBuf> = Vec::new();
@@ -38,9 +42,17 @@ impl Copies {
             .import(&files, &options, &mut Progress::new(&mut unheard))
             .expect("imported");
         drop(corpus);
+        fs::read(path("base.chereme")).expect("read")
+    })
+}
+
+impl Copies {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
         let open = |name: &str| {
-            fs::copy(path("base.chereme"), path(name)).expect("copied");
-            Corpus::open(&path(name), name).expect("opened")
+            let path = folder.path().join(name);
+            fs::write(&path, base()).expect("written");
+            Corpus::open(&path, name).expect("opened")
         };
         let (mine, theirs) = (open("mine.chereme"), open("theirs.chereme"));
         Self {
@@ -346,4 +358,124 @@ fn a_signer_whom_both_renamed_is_one_conflict() {
     copies.mine.decide(&[1], Decision::Theirs).expect("decided");
     assert_eq!(participants(&copies.mine, "Thea"), all);
     assert_whole(&mut copies.mine);
+}
+
+#[test]
+fn tiers_keep_the_new_name_of_a_signer_if_the_decision_is_about_something_else() {
+    let mut copies = Copies::new();
+    let change = |corpus: &mut Corpus, name: Option<&str>, notes: &str| {
+        let change = crate::SignerChange {
+            name: name.map(str::to_owned),
+            notes: Some(Some(notes.to_owned())),
+            ..Default::default()
+        };
+        let signer = Name::Text("Camille (made)".into());
+        corpus.change_signer(&signer, &change).expect("changed");
+    };
+    change(&mut copies.mine, Some("Mina"), "mine");
+    change(&mut copies.theirs, None, "theirs");
+    copies.merge();
+    copies.mine.decide(&[1], Decision::Theirs).expect("decided");
+    let sql = "SELECT DISTINCT s.name, t.participant FROM tier t, signer s";
+    let row = copies.mine.store.read().query_row(sql, [], |row| {
+        Ok((row.get::<_, String>(0)?, row.get::<_, String>(1)?))
+    });
+    assert_eq!(row.expect("a row"), ("Mina".to_owned(), "Mina".to_owned()));
+}
+
+/// Tries a change of one copy, named by a number and a time; one that is refused changes nothing.
+fn tries(corpus: &mut Corpus, (deed, at): (u8, i64)) {
+    let id = |sql: &str| corpus.store.read().query_row(sql, [], |row| row.get(0));
+    let of = |tier: &str| {
+        format!(
+            "JOIN tier t ON t.id = a.tier_id JOIN recording r ON r.id = t.recording_id WHERE r.name = 'bol' AND t.name = '{tier}'"
+        )
+    };
+    let annotation = |tier: &str| {
+        let sql = format!("SELECT a.id FROM annotation a {} LIMIT 1", of(tier));
+        id(&sql).ok().map(AnnotationName::Number)
+    };
+    let tier = |name: &str| TierName::Of {
+        recording: Name::Text("bol".into()),
+        tier: name.to_owned(),
+    };
+    let set = |tier: &str, start: Option<i64>, end: Option<i64>, value: Option<&str>| {
+        Some(AnnotationAction::Set {
+            annotation: annotation(tier)?,
+            start: start.and_then(moment),
+            end: end.and_then(moment),
+            value: value.map(str::to_owned),
+        })
+    };
+    let add = |name: &str, value: &str| {
+        Some(AnnotationAction::Add {
+            tier: tier(name),
+            start: moment(at),
+            end: moment(at + 90),
+            parent: None,
+            order: None,
+            value: value.into(),
+            confidence: None,
+        })
+    };
+    let removed = |tier: &str| {
+        let annotation = annotation(tier)?;
+        Some(AnnotationAction::Remove { annotation })
+    };
+    let action = match deed {
+        0 => set("Gloss", Some(at), None, None),
+        1 => set("Gloss", None, Some(at), None),
+        2 => set("Gloss", Some(at), Some(at + 400), None),
+        3 => set("Gloss", None, None, Some("BOL2")),
+        4 => set("Phase RH", None, Some(at), None),
+        5 => set("Configuration RH", Some(at), None, Some("5")),
+        6 => add("Brows", "raised"),
+        7 => add("Gloss", "NEW"),
+        8 => removed("Gloss"),
+        9 => removed("Configuration RH"),
+        10 => {
+            let _ = corpus.remove_tier(&tier("Brows"));
+            None
+        }
+        _ => {
+            let bol = [Address::Recording(Name::Text("bol".into()))];
+            let mut hear = unheard;
+            let progress = &mut Progress::new(&mut hear);
+            let _ = corpus.delete(&bol, DeleteOptions::default(), progress);
+            None
+        }
+    };
+    if let Some(action) = action {
+        let options = AnnotateOptions::default();
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        let _ = corpus.annotate(&[action.into()], &options, progress);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 40, ..ProptestConfig::default() })]
+
+    #[test]
+    fn a_merge_and_every_decision_keep_a_corpus_whole(
+        mine in proptest::collection::vec((0..12_u8, 1000..1800_i64), 0..5),
+        theirs in proptest::collection::vec((0..12_u8, 1000..1800_i64), 0..5),
+        decision in prop_oneof![Just(Decision::Mine), Just(Decision::Theirs), Just(Decision::Both)],
+    ) {
+        let mut copies = Copies::new();
+        mine.into_iter().for_each(|deed| tries(&mut copies.mine, deed));
+        theirs.into_iter().for_each(|deed| tries(&mut copies.theirs, deed));
+        copies.merge();
+        assert_whole(&mut copies.mine);
+        for (number, _) in conflicts(&copies.mine) {
+            let before = rows(&copies.mine);
+            match copies.mine.decide(&[number], decision) {
+                Ok(_) => assert_whole(&mut copies.mine),
+                Err(error) => {
+                    prop_assert!(error.remedy().is_some(), "{}", error);
+                    prop_assert_eq!(rows(&copies.mine), before);
+                }
+            }
+        }
+    }
 }
