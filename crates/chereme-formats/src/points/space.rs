@@ -56,7 +56,7 @@ fn places(points: &[Marker]) -> Vec<Vec<DVec3>> {
     (0..frames).step_by(step).map(at).collect()
 }
 
-/// Returns the size of the picture on which points lie: what they reach, or 1 if they are shares of it.
+/// Returns the size of the picture on which points lie: their largest coordinates, or 1 if they are shares of it.
 fn frame(places: &[Vec<DVec3>], findings: &mut Findings) -> Frame {
     let most = places
         .iter()
