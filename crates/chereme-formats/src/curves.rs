@@ -22,7 +22,7 @@ use crate::scene::near_usual;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
 use crate::tracks::{Content, FileTrack, Tracks, rate_of, unique};
-pub(crate) use table::{TimeUnit, are_millis, unit_of_time};
+pub(crate) use table::{TimeUnit, are_micros, are_millis, unit_of_time};
 
 /// Largest distance of a time from an even grid, as a share of a frame, at which the rate still counts as even.
 const EVEN_SLACK: f64 = 0.1;

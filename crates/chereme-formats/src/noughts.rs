@@ -44,10 +44,14 @@ pub(crate) fn open_noughts(
         far.sort_by(f64::total_cmp);
         let is_far = match (far.first(), far.get(far.len() / 2)) {
             (Some(least), Some(usual)) => *least > NEAR_NOUGHT * usual,
-            _ => has_places,
+            _ => has_places && !is_origin(name),
         };
         if !is_far {
-            left += noughts;
+            left += if has_places && is_origin(name) {
+                0
+            } else {
+                noughts
+            };
             continue;
         }
         for axis in axes {
@@ -77,4 +81,11 @@ pub(crate) fn open_noughts(
             format!("{left} places are exactly 0 0 0 though the file calls them seen; some programs write gaps so"),
         ));
     }
+}
+
+/// Returns whether a marker may be the point from which the places of a body are measured.
+fn is_origin(name: &str) -> bool {
+    let name = name.to_lowercase();
+    let words = ["root", "pelvis", "hip", "origin"];
+    words.iter().any(|word| name.contains(word))
 }

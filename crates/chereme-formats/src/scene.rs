@@ -83,13 +83,18 @@ pub(crate) fn settle(joints: &mut [Joint], channels: &mut [Channel]) -> usize {
 
 /// Returns the common frame rate near `rate`, which was computed from rounded times; `rate` itself if none is near.
 pub(crate) fn near_usual(rate: f64) -> f64 {
+    near_usual_within(rate, 5e-4)
+}
+
+/// Returns the nearest common frame rate within a share of `rate`; `rate` itself if there is none.
+pub(crate) fn near_usual_within(rate: f64, share: f64) -> f64 {
     let usual = [
         23.976, 24.0, 25.0, 29.97, 30.0, 48.0, 50.0, 59.94, 60.0, 90.0, 100.0, 119.88, 120.0, 240.0,
     ];
-    let near = usual
-        .into_iter()
-        .find(|usual| (rate / usual - 1.0).abs() < 5e-4);
-    near.unwrap_or(rate)
+    let off = |usual: &f64| (rate / usual - 1.0).abs();
+    let near = usual.into_iter().filter(|usual| off(usual) < share);
+    near.min_by(|a, b| off(a).total_cmp(&off(b)))
+        .unwrap_or(rate)
 }
 
 #[cfg(test)]

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use chereme_motion::{
     Axes, Column, Convention, Curves, Direction, Instant, Marker, Markers, Rate, Span,
 };
+use chereme_sign::{Choice, Remedy};
 use glam::DVec3;
 
 use crate::eaf::convert::{Annotation, Tier, Timing, Transcript};
@@ -40,6 +41,14 @@ pub enum Content {
     Markers(Markers),
     /// Named numbers.
     Curves(Curves),
+}
+
+/// Returns the remedy for axes that a file does not state.
+pub(crate) fn say_axes() -> Remedy {
+    Remedy::choice(
+        Choice::Axes,
+        "say the axes with --axes, such as --axes +Z,+X: up, and the signer's left",
+    )
 }
 
 /// Returns the finding that the caller's rate of a film is taken instead of that of its file.

@@ -22,7 +22,7 @@ use crate::finding::Finding;
 use crate::noughts::open_noughts;
 use crate::table::{TableError, decode, is_gap};
 use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, metres_of_unit, up_of};
+use crate::tracks::{Content, FileTrack, Tracks, axes_with_up, metres_of_unit, say_axes, up_of};
 use labels::Labels;
 pub(crate) use times::decimals;
 
@@ -344,7 +344,7 @@ fn convention(unit: Option<&str>, points: &[Marker], findings: &mut Findings) ->
     });
     let up = up_of(points).unwrap_or_else(|| {
         let text = "no markers of head and feet show which axis is up; +Y is taken";
-        findings.push(Finding::note(None, text).with_remedy("name the axes when importing"));
+        findings.push(Finding::note(None, text).with_remedy(say_axes()));
         Direction::nearest(DVec3::Y)
     });
     Convention {

@@ -7,8 +7,8 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use chereme_formats::bvh::raw::{Block, Reader};
 use chereme_formats::roles::Mapping;
 use chereme_formats::{
-    anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, pose, sigml, signstream,
-    subtitles, table, textgrid, trc,
+    anvil, c3d, curves, eaf, exmaralda, gltf, hns, keypoints, lexicon, points as point_tables,
+    pose, sigml, signstream, subtitles, table, textgrid, trc,
 };
 use chereme_motion::{
     Clip, Column, Convention, Instant, Joint, Marker, Markers, Rate, Skeleton, Space, Times,
@@ -90,6 +90,14 @@ const VTT: &str = "WEBVTT\n\nNOTE a note\n\nid\n00:01.000 --> 00:02.500 align:st
 const TRC: &str = "PathFileType\t4\t(X/Y/Z)\ta.trc\nDataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\
 \tOrigNumFrames\n100\t100\t3\t2\tmm\t100\t1\t3\nFrame#\tTime\tLSHO\t\t\tRSHO\t\t\n\t\tX1\tY1\tZ1\tX2\tY2\tZ2\n\n1\t0\t1\t2\t3\t-1\t2\t3\n\
 2\t0.01\t1\t2\t3\t-1\t2\t3\n3\t0.02\t1\t2\t3\t\t\t\n";
+const MOTIVE: &str = "Format Version,1.23,Take Name,a,Export Frame Rate,100,Length Units,Meters\n\n,Type,Marker,Marker,Marker\n,Name,w,w,w\n,ID,1,1,1\n\
+,,Position,Position,Position\nFrame,Time (Seconds),X,Y,Z\n0,0,1,2,3\n1,0.01,1,2,3\n";
+const NEXUS: &str =
+    "Trajectories\n100\n,,A:w,,\nFrame,Sub Frame,X,Y,Z\n,,mm,mm,mm\n1,0,1,2,3\n2,0,1,2,3\n";
+const QUALISYS: &str =
+    "NO_OF_FRAMES\t2\nNO_OF_MARKERS\t1\nFREQUENCY\t100\nMARKER_NAMES\tw\n1\t2\t3\n4\t5\t6\n";
+const DEEP_LAB_CUT: &str =
+    "scorer,a,a,a\nbodyparts,w,w,w\ncoords,x,y,likelihood\n0,1,2,0.9\n1,1,2,0.9\n";
 const LIVE_LINK: &str = "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen,HeadYaw\n11:00:00:00.0,3,0.1,0.2,0.3\n11:00:00:01.0,3,0.1,0.25,0.3\n\
 11:00:00:02.0,3,0.1,0.3,0.3\n";
 const OPEN_FACE: &str = "frame, face_id, timestamp, confidence, success, AU01_r, AU45_c\n1, 0, 0.000, 0.98, 1, 0.5, 0\n2, 0, 0.033, 0.98, 1, \
@@ -256,6 +264,20 @@ fn formats() -> Vec<Format> {
         ("curves", "time [s],a,b\n0,1,2\n0.1,2,3\n"),
     ] {
         all.push(format(name, text, |bytes| curves::read(bytes).is_ok()));
+    }
+    for (name, text) in [
+        (
+            "points",
+            "time,palm_x,palm_y,palm_z,e_x,e_y,e_z\n0,1,2,3,4,5,6\n0.01,1,2,3,,,\n",
+        ),
+        ("motive", MOTIVE),
+        ("nexus", NEXUS),
+        ("qualisys", QUALISYS),
+        ("deeplabcut", DEEP_LAB_CUT),
+    ] {
+        all.push(format(name, text, |bytes| {
+            point_tables::read(bytes, None).is_ok()
+        }));
     }
     #[cfg(feature = "fbx")]
     all.push(format(

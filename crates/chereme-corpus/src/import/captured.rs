@@ -99,9 +99,13 @@ pub(super) fn import_json(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Res
 pub(super) fn import_text(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     match head(job.path)? {
         head if is_export_of_signs(&head) => lexicon::import(job, progress),
-        _ if table_of_points(job.path)?.is_some() => import_points(job, progress),
-        head if annotations::is_export(&head) => import_tiers(job, progress),
-        _ => notated::import_lines(job, progress),
+        head => match table_of_points(job.path)? {
+            // An exported tier may have columns of numbers, too.
+            Some(PointFile::Plain) if annotations::is_export(&head) => import_tiers(job, progress),
+            Some(_) => import_points(job, progress),
+            None if annotations::is_export(&head) => import_tiers(job, progress),
+            None => notated::import_lines(job, progress),
+        },
     }
 }
 
@@ -395,8 +399,18 @@ pub(super) fn import_tracks(
         findings.extend(set_rate(&mut document, rate));
     }
     set_convention(&mut document, job.options, job.kind == POINTS);
+    findings.retain(|finding| !is_answered(finding, job.options));
     job.report_progress(progress)?;
     keep_take(job, document, findings, progress)
+}
+
+/// Returns whether the caller said what a finding asks for: the unit or the axes.
+fn is_answered(finding: &Finding, options: &ImportOptions) -> bool {
+    match finding.remedy {
+        Some(Remedy::Choice(Choice::Unit, _)) => options.metres_per_unit.is_some(),
+        Some(Remedy::Choice(Choice::Axes, _)) => options.axes.is_some(),
+        _ => false,
+    }
 }
 
 /// Gives measured points of a document the unit and the axes that the caller states, and estimated ones if it `takes_all`:

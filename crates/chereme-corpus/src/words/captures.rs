@@ -111,6 +111,10 @@ pub(super) const CAPTURES: &[(&str, &str)] = &[
         "lignes sans visage (BlendShapeCount vaut 0), dont les nombres, s’il y en a, ne veulent rien dire : {n}",
     ),
     (
+        "its times are whole numbers some microseconds of a film apart; they are read as microseconds",
+        "ses temps sont des nombres entiers, espacés comme les microsecondes d’un film ; ils sont lus comme des microsecondes",
+    ),
+    (
         "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds",
         "ses temps sont des nombres entiers, espacés comme les millisecondes d’un film ; ils sont lus comme des millisecondes",
     ),

@@ -144,6 +144,14 @@ pub(super) const POINTED: &[(&str, &str)] = &[
         "des colonnes de trajectoires qui ne sont pas des positions, comme des vitesses, sont laissées de côté : {n}",
     ),
     (
+        "the header states {stated} frames, and the file holds {held}",
+        "l’en-tête annonce {stated} images, et le fichier en contient {held}",
+    ),
+    (
+        "annotations are imported from a table with a row for each: its tier, begin, end and value",
+        "les annotations s’importent d’une table avec une ligne pour chacune : son acteur, son début, sa fin et sa valeur",
+    ),
+    (
         "columns of text are left out: {names}",
         "des colonnes de texte sont laissées de côté : {names}",
     ),

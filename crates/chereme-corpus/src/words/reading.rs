@@ -290,8 +290,8 @@ pub(super) const READING: &[(&str, &str)] = &[
         "POINT:Y_SCREEN dit que {axis} est vers le haut, et les marqueurs de tête et de pieds montrent {shown}, qui est pris",
     ),
     (
-        "it begins with frame {n} of its capture; that is 0 s here",
-        "il commence à l’image {n} de sa capture ; c’est 0 s ici",
+        "it begins with frame {n} of its capture; that is {time} s here",
+        "il commence à l’image {n} de sa capture ; c’est {time} s ici",
     ),
     (
         "{n} places of {markers} markers are exactly 0 0 0 and become gaps, as some programs write gaps so: {names}",
@@ -439,7 +439,7 @@ pub(super) const READING: &[(&str, &str)] = &[
         "aucune paire de marqueurs comme LSHO et RSHO ne montre le côté gauche ; le premier axe possible est pris",
     ),
     (
-        "name the axes when importing",
-        "nommez les axes à l’importation",
+        "say the axes with --axes, such as --axes +Z,+X: up, and the signer's left",
+        "donnez les axes avec --axes, comme --axes +Z,+X : le haut, et la gauche du signeur",
     ),
 ];

@@ -21,7 +21,8 @@ use crate::finding::Finding;
 use crate::tally::Findings;
 use crate::timecode;
 use crate::tracks::{
-    Content, FileTrack, Tracks, axes_with_up, events, metres_of_unit, rate_of, unique, up_of,
+    Content, FileTrack, Tracks, axes_with_up, events, metres_of_unit, rate_of, say_axes, unique,
+    up_of,
 };
 use raw::Document;
 
@@ -242,7 +243,6 @@ impl Reader<'_> {
 
     /// Returns the axis that is up: that of the markers of head and feet, else that of the screen, else Z.
     fn up(&self, markers: &[Marker], findings: &mut Findings) -> Direction {
-        const REMEDY: &str = "name the axes when importing";
         let text = self.document.parameters.text("POINT:Y_SCREEN");
         let screen = text.and_then(|axis| {
             let sign = if axis.contains('-') { '-' } else { '+' };
@@ -254,13 +254,13 @@ impl Reader<'_> {
                 let text = format!(
                     "POINT:Y_SCREEN says that {screen} is up, and the markers of head and feet show {shown}, which is taken"
                 );
-                findings.push(Finding::warning(None, text).with_remedy(REMEDY));
+                findings.push(Finding::warning(None, text).with_remedy(say_axes()));
                 shown
             }
             (Some(up), _) | (None, Some(up)) => up,
             (None, None) => {
                 let text = "no markers of head and feet show which axis is up; +Z is taken";
-                findings.push(Finding::note(None, text).with_remedy(REMEDY));
+                findings.push(Finding::note(None, text).with_remedy(say_axes()));
                 Direction::nearest(DVec3::Z)
             }
         }

@@ -296,6 +296,12 @@ pub(crate) fn are_millis(times: &[f64]) -> bool {
     is_whole && usual.is_some_and(|usual| STEPS_OF_FILM.contains(usual))
 }
 
+/// Returns whether times are whole numbers some microseconds of a film apart.
+pub(crate) fn are_micros(times: &[f64]) -> bool {
+    let thousandth: Vec<f64> = times.iter().map(|time| (time / 1000.0).round()).collect();
+    are_millis(&thousandth) && times.iter().all(|time| time.fract() == 0.0)
+}
+
 /// Returns whether timestamps count rows instead of giving their times.
 fn is_counted(times: &[f64]) -> bool {
     let mut steps: Vec<f64> = times.windows(2).map(|pair| pair[1] - pair[0]).collect();
@@ -336,6 +342,14 @@ pub(crate) fn unit_of_time(title: &str) -> Option<TimeUnit> {
     }
     match (name, unit) {
         ("ms" | "milliseconds" | "time_ms" | "timestamp_ms", "") => Some(TimeUnit::Seconds(0.001)),
+        ("us" | "µs" | "microseconds" | "time_us" | "timestamp_us", "") => {
+            Some(TimeUnit::Seconds(1e-6))
+        }
+        ("ns" | "nanoseconds" | "time_ns" | "timestamp_ns", "") => Some(TimeUnit::Seconds(1e-9)),
+        ("time" | "timestamp" | "t", "us" | "µs" | "microseconds") => {
+            Some(TimeUnit::Seconds(1e-6))
+        }
+        ("time" | "timestamp" | "t", "ns" | "nanoseconds") => Some(TimeUnit::Seconds(1e-9)),
         ("s" | "seconds" | "time_s" | "time" | "timestamp" | "t", "" | "s" | "sec" | "seconds") => {
             Some(TimeUnit::Seconds(1.0))
         }

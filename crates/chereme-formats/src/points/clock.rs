@@ -6,10 +6,10 @@ use chereme_sign::Remedy;
 
 use super::Error;
 use super::rows::{Layout, Rows};
-use crate::curves::{TimeUnit, are_millis};
+use crate::curves::{TimeUnit, are_micros, are_millis};
 use crate::finding::Finding;
 use crate::keypoints::USUAL_RATE;
-use crate::scene::near_usual;
+use crate::scene::{near_usual, near_usual_within};
 use crate::tally::Findings;
 use crate::timecode::DAY;
 use crate::tracks::rate_of;
@@ -35,21 +35,32 @@ pub(super) fn times(
         return by_number(rows, layout, stated.or(wanted), findings);
     };
     let first = times[0];
-    let millis = unit == 1.0 && stated.is_none() && are_millis(&times);
-    let unit = if millis { 0.001 } else { unit };
+    let bare = unit == 1.0 && stated.is_none();
+    let millis = bare && are_millis(&times);
+    let micros = bare && !millis && are_micros(&times);
+    let unit = match (millis, micros) {
+        (true, _) => 1e-3,
+        (_, true) => 1e-6,
+        _ => unit,
+    };
     let seconds: Vec<f64> = times.iter().map(|time| (time - first) * unit).collect();
     let offset = offset(first * unit, findings);
-    let last_decimal = decimals(&rows.times) * unit;
-    if millis {
-        findings.push(
-            Finding::warning(
-                layout.line,
-                "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds",
-            )
-            .with_remedy(
-                "write the unit into the title of that column, such as time [ms] or time [s]",
-            ),
-        );
+    let last_decimal = match layout.time {
+        Some((_, TimeUnit::Frames(_))) => 0.0,
+        _ => decimals(&rows.times) * unit,
+    };
+    if millis || micros {
+        let text = match millis {
+            true => {
+                "its times are whole numbers some milliseconds of a film apart; they are read as milliseconds"
+            }
+            false => {
+                "its times are whole numbers some microseconds of a film apart; they are read as microseconds"
+            }
+        };
+        findings.push(Finding::warning(layout.line, text).with_remedy(
+            "write the unit into the title of that column, such as time [ms] or time [s]",
+        ));
     }
     if let [_] = seconds[..] {
         let (times, _) = by_number(rows, layout, stated.or(wanted), findings)?;
@@ -74,11 +85,19 @@ pub(super) fn times(
     let mut steps: Vec<f64> = seconds.windows(2).map(|pair| pair[1] - pair[0]).collect();
     steps.sort_by(f64::total_cmp);
     let usual = 1.0 / steps[steps.len() / 2];
-    let rates = [near_usual(mean), mean, near_usual(usual), usual];
+    // The last time may be rounded.
+    let rounded = (last_decimal / seconds[seconds.len() - 1]).max(5e-4);
+    let rates = [
+        near_usual_within(mean, rounded),
+        mean,
+        near_usual(usual),
+        usual,
+    ];
     let even = rates.into_iter().filter_map(rate_of);
     let even = even
         .into_iter()
-        .find(|rate| is_even(&seconds, *rate, SLACK[1], last_decimal));
+        .find(|rate| is_even(&seconds, *rate, SLACK[1], last_decimal))
+        .filter(|_| !has_holes(&seconds) && !lacks_frames(rows));
     if let Some(rate) = even {
         if let Some(stated) = stated {
             let text = format!(
@@ -125,21 +144,27 @@ fn by_number(
     let Some(frames) = numbers(&rows.frames).filter(|_| layout.frame.is_some()) else {
         return Ok((Times::Even(rate), Instant::ZERO));
     };
+    // A known program counts the frames of a capture from 1, and its events have the times of the capture.
+    let offset = match layout.program {
+        "" => Instant::ZERO,
+        _ => Instant::from_seconds((frames[0] - 1.0).max(0.0) * rate.frame_time()),
+    };
     if frames[0] > 1.0 {
         let text = format!(
-            "it begins with frame {} of its capture; that is 0 s here",
-            frames[0]
+            "it begins with frame {} of its capture; that is {} s here",
+            frames[0],
+            offset.seconds()
         );
         findings.push(Finding::note(None, text));
     }
     let even = frames.windows(2).all(|pair| pair[1] - pair[0] == 1.0);
     if even {
-        return Ok((Times::Even(rate), Instant::ZERO));
+        return Ok((Times::Even(rate), offset));
     }
     if !frames.is_sorted_by(|a, b| a < b) {
         let text = "the numbers of the frames do not rise; the rows are taken one after the other";
         findings.push(Finding::warning(None, text));
-        return Ok((Times::Even(rate), Instant::ZERO));
+        return Ok((Times::Even(rate), offset));
     }
     let text = "frames are missing, as their numbers show; every frame has its own time";
     findings.push(Finding::note(None, text));
@@ -148,7 +173,30 @@ fn by_number(
         .map(|frame| (frame - frames[0]) * rate.frame_time());
     let times = Times::listed(Column::doubles(seconds.collect()));
     let times = times.map_err(|error| Error::Track(error.to_string()))?;
-    Ok((times, Instant::ZERO))
+    Ok((times, offset))
+}
+
+/// Returns whether some steps are two or more times as long as the usual one, and none is shorter: frames are missing.
+fn has_holes(seconds: &[f64]) -> bool {
+    let mut steps: Vec<f64> = seconds.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    steps.sort_by(f64::total_cmp);
+    let usual = steps[(steps.len() - 1) / 2];
+    let near = |step: &f64, count: f64| (step - count * usual).abs() < 0.1 * usual;
+    let is_whole = |step: &f64| near(step, (step / usual).round());
+    usual > 0.0
+        && near(&steps[0], 1.0)
+        && steps.iter().all(is_whole)
+        && steps.last().is_some_and(|last| !near(last, 1.0))
+}
+
+/// Returns whether the numbers of the frames rise by steps of different lengths.
+fn lacks_frames(rows: &Rows) -> bool {
+    let Some(frames) = numbers(&rows.frames) else {
+        return false;
+    };
+    let mut steps = frames.windows(2).map(|pair| pair[1] - pair[0]);
+    let first = steps.clone().next();
+    steps.clone().all(|step| step > 0.0) && steps.any(|step| Some(step) != first)
 }
 
 /// Returns whether times from the first one on are those of a rate.

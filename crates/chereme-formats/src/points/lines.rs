@@ -31,6 +31,26 @@ impl<'t> Lines<'t> {
         })
     }
 
+    /// Returns the lines from `first` on that hold rows. A line of delimiters alone is a row of gaps if `gaps` says so,
+    /// but not at the end.
+    pub(super) fn rows(&self, first: u64, gaps: bool) -> impl Iterator<Item = (u64, &str)> {
+        let raw = (1..).zip(self.text.lines());
+        let raw = raw.skip_while(move |(line, _)| *line < first);
+        let mut open: Vec<(u64, &str)> = Vec::new();
+        let blank = |letter: char| letter.is_whitespace() || matches!(letter, ',' | ';');
+        raw.flat_map(move |(line, text)| {
+            let text = text.trim_start_matches('\u{feff}').trim_end_matches('\r');
+            let is_blank = text.trim_matches(blank).is_empty();
+            if !is_blank || gaps && text.contains(['\t', ',', ';']) {
+                open.push((line, text));
+            }
+            match is_blank {
+                true => Vec::new(),
+                false => std::mem::take(&mut open),
+            }
+        })
+    }
+
     /// Returns the lines that are not blank.
     pub(super) fn filled(&self) -> impl Iterator<Item = (u64, &str)> {
         self.all().filter(|(_, text)| !text.is_empty())

@@ -33,7 +33,7 @@ use crate::finding::Finding;
 use crate::noughts::open_noughts;
 use crate::table::{TableError, decode};
 use crate::tally::Findings;
-use crate::tracks::{Content, FileTrack, Tracks, events, unique};
+use crate::tracks::{Content, FileTrack, Tracks, events, rate_of, unique};
 use lines::Lines;
 use rows::{Layout, Rows};
 
@@ -183,7 +183,7 @@ pub fn read(bytes: &[u8], rate: Option<Rate>) -> Result<(Tracks, Vec<Finding>), 
     } else if qualisys::begins(&lines) {
         qualisys::layout(&lines, &mut findings)?
     } else if let Some(layout) = stacked::layout(&lines) {
-        layout?
+        layout
     } else {
         plain::layout(&lines, &mut findings)?
     };
@@ -199,6 +199,11 @@ fn tracks(
     findings: &mut Findings,
 ) -> Result<Tracks, Error> {
     let mut rows = Rows::read(lines, &layout, findings)?;
+    let held = rows.lines.len();
+    if let Some(stated) = layout.frames.filter(|stated| *stated != held) {
+        let text = format!("the header states {stated} frames, and the file holds {held}");
+        findings.push(Finding::warning(layout.line, text));
+    }
     let (times, offset) = clock::times(&rows, &layout, wanted, findings)?;
     let wide = layout.wide();
     let names = names(&layout, findings);
@@ -237,7 +242,7 @@ fn tracks(
         Some(quality) => markers.rated(quality),
         None => markers,
     };
-    let rate = times.rate();
+    let rate = times.rate().or(layout.rate.and_then(rate_of));
     let name = if capture == Capture::Estimated && layout.program.is_empty() {
         "landmarks"
     } else {

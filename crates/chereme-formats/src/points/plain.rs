@@ -1,5 +1,7 @@
 //! Tables with one row of titles, which name a point and its axis: what people's own scripts write.
 
+use std::collections::BTreeSet;
+
 use super::Error;
 use super::lines::{Lines, cells, delimiter};
 use super::rows::{COLUMNS, Layout, number};
@@ -76,6 +78,30 @@ fn counts_frames(title: &str, at: usize) -> bool {
     known.contains(&plain.as_str()) || title.is_empty() && at == 0 || plain == "unnamed0"
 }
 
+/// Returns whether a title is that of a lexicon, of annotations or of trials, whose rows are no frames.
+fn names_other(title: &str) -> bool {
+    const WORDS: [&str; 15] = [
+        "gloss",
+        "glosses",
+        "idgloss",
+        "lemma",
+        "sign",
+        "signs",
+        "word",
+        "handshape",
+        "tier",
+        "annotation",
+        "participant",
+        "trial",
+        "item",
+        "condition",
+        "stimulus",
+    ];
+    let title = title.to_lowercase();
+    let mut words = title.split(|letter: char| !letter.is_alphanumeric());
+    words.any(|word| WORDS.contains(&word))
+}
+
 /// Returns whether a table that begins with these lines holds points: most of its columns are points, and their cells
 /// numbers.
 pub(super) fn begins(lines: &Lines<'_>) -> bool {
@@ -85,12 +111,12 @@ pub(super) fn begins(lines: &Lines<'_>) -> bool {
     };
     let (named, width) = (&titles.named, titles.all.len());
     let is_face = System::of_names(titles.all.iter().copied()).is_some();
-    if named.points.is_empty() || is_face || width < 3 {
+    let is_other = titles.all.iter().any(|title| names_other(title));
+    if named.points.is_empty() || is_face || is_other || width < 3 {
         return false;
     }
-    let mut rows = first.iter().filter(|(line, _)| *line > titles.line);
+    let rows = first.iter().filter(|(line, _)| *line > titles.line);
     let mut rows: Vec<(u64, Vec<&str>)> = rows
-        .by_ref()
         .map(|(line, text)| (*line, cells(text, titles.delimiter)))
         .collect();
     if !lines.is_whole && rows.len() > 1 {
@@ -120,8 +146,19 @@ pub(super) fn begins(lines: &Lines<'_>) -> bool {
         rows.iter()
             .any(|(line, row)| read(*line, row, *at).is_err())
     };
-    let texts = (0..width).filter(is_text).count();
-    // A sheet of two numbers with a text in each row is no movement.
+    let texts: Vec<usize> = (0..width).filter(is_text).collect();
+    // Rows with names of their own are things, not frames.
+    let is_named = |at: &usize| {
+        let cells = rows.iter().filter_map(|(_, row)| row.get(*at));
+        let words = cells.filter(|it| it.starts_with(char::is_alphabetic));
+        let words: BTreeSet<&&str> = words.collect();
+        words.len() > 2 && words.len() == rows.len()
+    };
+    if texts.iter().any(is_named) {
+        return false;
+    }
+    let texts = texts.len();
+    // Without a clock or a quality, a point in space or two on a picture are needed, and no text.
     let least = if named.points[0].axes.len() == 3 {
         1
     } else {
@@ -162,9 +199,10 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
         .map(|(line, text)| (*line, cells(text, titles.delimiter)))
         .collect();
     let is_text = |at: usize| {
-        let cell = |row: &[&'_ str]| row.get(at).copied().unwrap_or_default().to_owned();
-        rows.iter()
-            .any(|(line, row)| number(&cell(row), *line, titles.delimiter != ',').is_err())
+        rows.iter().any(|(line, row)| {
+            let cell = row.get(at).copied().unwrap_or_default();
+            number(cell, *line, titles.delimiter != ',').is_err()
+        })
     };
     let free: Vec<usize> = (0..titles.all.len()).filter(|at| !taken(at)).collect();
     let (texts, others): (Vec<usize>, Vec<usize>) = free.into_iter().partition(|at| is_text(*at));
@@ -174,7 +212,9 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
             "columns of text are left out: {}",
             crate::table::listed(&named)
         );
-        findings.push(Finding::warning(titles.line, text));
+        findings.push(Finding::warning(titles.line, text).with_remedy(
+            "annotations are imported from a table with a row for each: its tier, begin, end and value",
+        ));
     }
     let others = others.into_iter().map(|at| (titles.all[at].to_owned(), at));
     Ok(Layout {
@@ -199,19 +239,21 @@ fn long(titles: &Titles<'_>, first: &[(u64, &str)]) -> Result<(), Error> {
         "marker", "landmark", "joint", "keypoint", "bodypart", "point", "label", "name",
     ];
     let names = |title: &str| NAMES.iter().any(|name| title.to_lowercase().contains(name));
-    let column = titles
-        .all
-        .iter()
-        .enumerate()
-        .find(|(at, title)| names(title) && !titles.named.used.contains(at));
-    let (Some((_, column)), Some(frame)) = (column, titles.frame) else {
+    let clock = titles.time.map(|(time, _)| time).or(titles.frame);
+    let free = |at: &usize| {
+        let is_clock = titles.frame == Some(*at) || clock == Some(*at);
+        !is_clock && !titles.named.used.contains(at)
+    };
+    let free: Vec<usize> = (0..titles.all.len()).filter(free).collect();
+    let column = free.iter().find(|at| names(titles.all[**at]));
+    let (Some(column), Some(clock)) = (column.or(free.first()), clock) else {
         return Ok(());
     };
     let rows = first.iter().filter(|(line, _)| *line > titles.line);
     let frames: Vec<&str> = rows
         .map(|(_, text)| {
             cells(text, titles.delimiter)
-                .get(frame)
+                .get(clock)
                 .copied()
                 .unwrap_or_default()
         })
@@ -221,7 +263,7 @@ fn long(titles: &Titles<'_>, first: &[(u64, &str)]) -> Result<(), Error> {
         .any(|pair| pair[0] == pair[1] && !pair[0].is_empty());
     match repeats && titles.named.points.len() == 1 {
         true => Err(Error::Long {
-            column: (*column).to_owned(),
+            column: titles.all[*column].to_owned(),
         }),
         false => Ok(()),
     }

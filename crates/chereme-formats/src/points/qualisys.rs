@@ -33,12 +33,16 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
     let mut names: Option<(u64, Vec<&str>)> = None;
     let mut bodies: Option<(u64, Vec<&str>)> = None;
     let mut titles: Option<(u64, Vec<&str>)> = None;
-    let mut rate = None;
+    let (mut rate, mut frames) = (None, None);
     let mut events = Vec::new();
     let mut begin = None;
     for (line, text) in first {
         let cells = cells(text, delimiter);
         let key = cells[0];
+        // The first rows may be gaps alone.
+        let is_row = |cells: &[&str]| {
+            cells.len() > 2 && cells.iter().all(|it| number(it, line, true).is_ok())
+        };
         let is_number = |cell: &&str| number(cell, line, true).is_ok_and(|it| it.is_some());
         match key {
             "MARKER_NAMES" => names = Some((line, cells)),
@@ -48,8 +52,12 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
                     .get(1)
                     .and_then(|it| it.replacen(',', ".", 1).parse().ok())
             }
+            "NO_OF_FRAMES" => frames = cells.get(1).and_then(|it| it.parse().ok()),
             "EVENT" => events.extend(event(&cells)),
-            _ if is_number(&key) || key.is_empty() && cells.iter().any(is_number) => {
+            _ if is_row(&cells)
+                || is_number(&key)
+                || key.is_empty() && cells.iter().any(is_number) =>
+            {
                 begin = Some((line, cells.len()));
                 break;
             }
@@ -98,6 +106,7 @@ pub(super) fn layout(lines: &Lines<'_>, findings: &mut Findings) -> Result<Layou
         frame: (lead > 0).then_some(0),
         time: (lead > 1).then_some((1, TimeUnit::Seconds(1.0))),
         rate,
+        frames,
         unit: Some(0.001),
         up: Some(Direction::nearest(DVec3::Z)),
         events,

@@ -62,6 +62,8 @@ pub(super) struct Layout {
     pub(super) quality: Option<Quality>,
     /// Frames a second, if they are stated.
     pub(super) rate: Option<f64>,
+    /// The number of frames, if it is stated.
+    pub(super) frames: Option<usize>,
     /// Metres of a unit of the places, if it is stated.
     pub(super) unit: Option<f64>,
     /// Whether the places are pixels.
@@ -119,7 +121,9 @@ impl Rows {
             ));
         }
         let (first, end) = layout.rows;
-        let held = lines.filled().skip_while(|(line, _)| *line < first);
+        // Beside times or numbers of frames, a row without any number is a blank line.
+        let has_clock = layout.frame.is_some() || layout.time.is_some();
+        let held = lines.rows(first, !has_clock);
         let held = held.take_while(|(line, _)| end.is_none_or(|end| *line < end));
         let (mut lacking, mut before, mut last) = (0, 0, 0);
         let mut widest = None;

@@ -8,7 +8,7 @@ use glam::DVec3;
 use super::rows::Layout;
 use crate::finding::Finding;
 use crate::tally::Findings;
-use crate::tracks::{axes_with_up, up_of};
+use crate::tracks::{axes_with_up, say_axes, up_of};
 
 /// The frames at which places are looked at.
 const LOOKED_AT: usize = 60;
@@ -73,7 +73,9 @@ fn frame(places: &[Vec<DVec3>], findings: &mut Findings) -> Frame {
 
 /// Returns whether places are shares of a picture's size, as landmarks of MediaPipe are.
 fn are_shares(layout: &Layout, points: &[Marker], places: &[Vec<DVec3>]) -> bool {
-    let is_film = layout.quality.is_some() || LANDMARKS.contains(&points.len());
+    let is_number = |point: &Marker| point.name.bytes().all(|it| it.is_ascii_digit());
+    let are_landmarks = LANDMARKS.contains(&points.len()) && points.iter().all(is_number);
+    let is_film = layout.quality.is_some() || are_landmarks;
     if !layout.program.is_empty() || !is_film {
         return false;
     }
@@ -131,14 +133,13 @@ fn unit(places: &[Vec<DVec3>], findings: &mut Findings) -> f64 {
 
 /// Returns the direction that is up: that from feet to head, else that of the program, else +Y.
 fn up(layout: &Layout, points: &[Marker], findings: &mut Findings) -> Direction {
-    const REMEDY: &str = "name the axes when importing";
     let program = layout.program;
     match (up_of(points), layout.up) {
         (Some(seen), Some(usual)) if seen != usual => {
             let text = format!(
                 "markers of head and feet show that {seen} is up, and {program} usually has {usual} up; {seen} is taken"
             );
-            findings.push(Finding::warning(None, text).with_remedy(REMEDY));
+            findings.push(Finding::warning(None, text).with_remedy(say_axes()));
             seen
         }
         (Some(seen), _) => seen,
@@ -146,12 +147,12 @@ fn up(layout: &Layout, points: &[Marker], findings: &mut Findings) -> Direction 
             let text = format!(
                 "the file does not state which axis is up; {usual} is taken, as {program} usually has it"
             );
-            findings.push(Finding::note(None, text).with_remedy(REMEDY));
+            findings.push(Finding::note(None, text).with_remedy(say_axes()));
             usual
         }
         (None, None) => {
             let text = "no markers of head and feet show which axis is up; +Y is taken";
-            findings.push(Finding::note(None, text).with_remedy(REMEDY));
+            findings.push(Finding::note(None, text).with_remedy(say_axes()));
             Direction::nearest(DVec3::Y)
         }
     }

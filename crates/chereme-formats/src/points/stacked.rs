@@ -4,18 +4,19 @@ use std::collections::BTreeMap;
 
 use chereme_motion::Quality;
 
-use super::Error;
 use super::lines::{Lines, cells, delimiter};
-use super::rows::{Layout, Place};
+use super::rows::{Layout, Place, number};
 use super::titles::{Part, part};
 use crate::curves::{TimeUnit, unit_of_time};
 use crate::tracks::metres_of_unit;
 
 /// The first lines among which the row of axes is looked for.
 const LOOKED_AT: usize = 6;
+/// The rows below them that are looked at.
+const ROWS: usize = 20;
 
 /// Returns the columns of a table whose titles take several rows; `None` if it has no row of axes below a row of names.
-pub(super) fn layout(lines: &Lines<'_>) -> Option<Result<Layout, Error>> {
+pub(super) fn layout(lines: &Lines<'_>) -> Option<Layout> {
     let first = lines.first(LOOKED_AT);
     let at = (1..first.len()).find(|at| is_axes(first[*at].1))?;
     let (line, axes) = first[at];
@@ -24,6 +25,7 @@ pub(super) fn layout(lines: &Lines<'_>) -> Option<Result<Layout, Error>> {
     let names = cells(first[at - 1].1, delimiter);
     let lead = axes.iter().position(|it| part(it).is_some())?;
     if lead > 2
+        || !axes[..lead].iter().all(|word| is_lead(word))
         || names
             .iter()
             .skip(lead)
@@ -65,10 +67,42 @@ pub(super) fn layout(lines: &Lines<'_>) -> Option<Result<Layout, Error>> {
         }
     }
     points(&mut layout, &names, &axes, people.as_deref(), lead);
-    match layout.points.is_empty() {
-        true => None,
-        false => Some(Ok(layout)),
-    }
+    let below = lines.first(LOOKED_AT + ROWS);
+    let below = below.iter().filter(|(line, _)| *line >= layout.rows.0);
+    let below: Vec<Vec<&str>> = below.map(|(_, text)| cells(text, delimiter)).collect();
+    // The last one may be cut where the beginning of a file ends.
+    let whole = below.len().saturating_sub(usize::from(below.len() > 1));
+    let columns = layout.points.iter().flat_map(|point| &point.axes);
+    let columns: Vec<usize> = columns.copied().collect();
+    let is_number = |row: &Vec<&str>| {
+        let cell = |at: &usize| row.get(*at).copied().unwrap_or_default();
+        columns
+            .iter()
+            .all(|at| number(cell(at), 0, delimiter != ',').is_ok())
+    };
+    let holds = !layout.points.is_empty() && below[..whole].iter().all(is_number);
+    holds.then_some(layout)
+}
+
+/// Returns whether a word may stand beside the axes: that of the row of titles, of frames or of times.
+fn is_lead(word: &str) -> bool {
+    const WORDS: [&str; 13] = [
+        "",
+        "coords",
+        "coord",
+        "coordinates",
+        "axis",
+        "axes",
+        "frame",
+        "frames",
+        "sub frame",
+        "subframe",
+        "index",
+        "#",
+        "frame#",
+    ];
+    let word = word.to_lowercase();
+    WORDS.contains(&word.as_str()) || unit_of_time(&word).is_some()
 }
 
 /// Returns whether a line holds axes: `x` and `y` and no other words but that of the row, of frames and of times.

@@ -2,6 +2,7 @@
 
 mod kinds;
 mod programs;
+mod truth;
 
 use chereme_motion::Space;
 

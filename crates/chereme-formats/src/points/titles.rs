@@ -74,6 +74,25 @@ const NO_PLACES: &[&str] = &[
     "grav",
     "emg",
     "std",
+    "sd",
+    "mean",
+    "average",
+    "avg",
+    "median",
+    "min",
+    "max",
+    "range",
+    "peak",
+    "sum",
+    "var",
+    "delta",
+    "onset",
+    "offset",
+    "velocities",
+    "omega",
+    "magnetic",
+    "grf",
+    "cop",
     "error",
     "f",
     "v",
@@ -132,7 +151,12 @@ impl Style {
                 let stem = &title[..at];
                 let letters = stem.chars().filter(|it| it.is_alphanumeric()).count();
                 let part = part(last.encode_utf8(&mut [0; 4]))?;
-                let is_axis = matches!(part, Part::Axis(_)) && !stem.ends_with(SEPARATORS);
+                // In `wrist_ax` and `pose_Rx` a letter for another quantity stands before the axis.
+                let last = stem.rsplit(SEPARATORS).next().unwrap_or_default();
+                let letters_of_others = ["a", "f", "g", "m", "q", "r", "v", "w"];
+                let is_other = letters_of_others.contains(&last.to_lowercase().as_str());
+                let is_axis =
+                    matches!(part, Part::Axis(_)) && !stem.ends_with(SEPARATORS) && !is_other;
                 (letters >= 3 && is_axis)
                     .then(|| made(stem, part))
                     .flatten()
@@ -302,5 +326,10 @@ fn holds_places(stem: &str) -> bool {
             word.extend(letter.to_lowercase());
         }
     }
-    !words.iter().any(|word| NO_PLACES.contains(&word.as_str()))
+    let is_known = |word: &String| {
+        let bare = word.trim_end_matches(|letter: char| letter.is_ascii_digit());
+        let one = bare.strip_suffix('s').unwrap_or(bare);
+        NO_PLACES.contains(&bare) || NO_PLACES.contains(&one)
+    };
+    !words.iter().any(is_known)
 }

@@ -49,6 +49,16 @@ fn tables_of_points_become_markers_and_others_stay_what_they_are() {
         ),
         ("words.csv", "gloss,x,y\nBOL,1,2\nCHAT,3,4\n", "Imported"),
         (
+            "tiers.txt",
+            "Tier\tBegin\tEnd\tValue\twrist_x\twrist_y\nGloss\t0.5\t1.5\tBOL\t1\t2\n",
+            "Imported",
+        ),
+        (
+            "pairs.csv",
+            "gloss,dominant handshape,weak handshape\nBOOK,B,B\nSTICK,X,Y\nTABLE,5,5\n",
+            "Imported",
+        ),
+        (
             "tiers.csv",
             "tier,begin,end,value\nGloss,0.5,1.5,BOL\n",
             "Imported",
@@ -61,6 +71,31 @@ fn tables_of_points_become_markers_and_others_stay_what_they_are() {
         );
     }
     assert_whole(&mut corpus);
+}
+
+#[test]
+fn a_unit_and_axes_that_are_said_are_not_asked_for() {
+    let desk = Desk::new();
+    let file = desk.file("wrist.csv", WRIST);
+    let asks = |options: &ImportOptions, name: &str| {
+        let mut corpus = desk.corpus(name);
+        let mut hear = unheard;
+        let files = [file.clone()];
+        let report = corpus.import(&files, options, &mut Progress::new(&mut hear));
+        let findings = report.expect("imported").files.remove(0).findings;
+        let asked = findings.into_iter().filter_map(|it| it.remedy);
+        asked
+            .filter(|it| it.text().contains("--unit") || it.text().contains("--axes"))
+            .count()
+    };
+    assert_eq!(asks(&ImportOptions::default(), "a.chereme"), 2);
+    let said = ImportOptions {
+        metres_per_unit: Some(0.001),
+        axes: "+Z,+X".parse().ok(),
+        ..ImportOptions::default()
+    };
+    assert!(said.axes.is_some());
+    assert_eq!(asks(&said, "b.chereme"), 0);
 }
 
 #[test]
