@@ -49,7 +49,7 @@ fn tables_of_points_become_markers_and_others_stay_what_they_are() {
         ),
         ("words.csv", "gloss,x,y\nBOL,1,2\nCHAT,3,4\n", "Imported"),
         (
-            "tiers.txt",
+            "spans.txt",
             "Tier\tBegin\tEnd\tValue\twrist_x\twrist_y\nGloss\t0.5\t1.5\tBOL\t1\t2\n",
             "Imported",
         ),
