@@ -16,7 +16,8 @@ use crate::context::{DisplayState, Outbox, PaneInput};
 use crate::draft::Drafts;
 use crate::file_dialogs::{Chooser, Chosen};
 use crate::film::Films;
-use crate::keys::{KeyContext, Keys};
+use crate::keys::Keys;
+use crate::keys::queue::KeyQueue;
 use crate::miniatures::Figures;
 use crate::model::Snapshot;
 use crate::model::reel::Reel;
@@ -31,7 +32,7 @@ use crate::work::begin::{Begin, Beginning};
 use crate::work::desk::{Desk, News, Wake};
 use crate::work::{Lane, Outcome, movement};
 use crate::workbench::Workbench;
-use crate::{clipboard, layout, theme};
+use crate::{layout, theme};
 
 /// The window's whole state; [`ui`](Self::ui) is one frame of it.
 pub struct Studio {
@@ -41,6 +42,8 @@ pub struct Studio {
     /// The settings as they are in the file.
     pub(crate) saved: Settings,
     pub(crate) keys: Keys,
+    /// Keys that were pressed and not handed out yet.
+    pub(crate) waiting: KeyQueue,
     pub(crate) desk: Option<Desk>,
     pub(crate) beginning: Option<Beginning>,
     /// The file of the open corpus, if it was created only to receive imported files.
@@ -64,8 +67,10 @@ pub struct Studio {
     /// Whether the layout is that of a small window.
     pub(crate) small: bool,
     pub(crate) panes: Panes,
-    /// The pane that was used last.
+    /// The pane that was used last; it has the focus while it is in sight.
     pub(crate) pane: Option<PaneKind>,
+    /// The text field that has the cursor, and its pane.
+    cursor: Option<(PaneKind, egui::Id)>,
     sprung: Sprung,
     pub(crate) start: Start,
     pub(crate) chooser: Chooser,
@@ -119,6 +124,7 @@ impl Studio {
             author,
             folders,
             keys: Keys::new(settings.keymap, &settings.keys, settings.language),
+            waiting: KeyQueue::default(),
             tree: layout::remembered(settings.layout.as_ref(), (settings.busy, false)),
             small: false,
             saved,
@@ -137,6 +143,7 @@ impl Studio {
             films: Films::default(),
             panes: Panes::default(),
             pane: None,
+            cursor: None,
             sprung: Sprung::default(),
             start: Start::default(),
             chooser: Chooser::default(),
@@ -254,6 +261,7 @@ impl Studio {
         self.beginning.is_none()
             && !self.chooser.is_open()
             && !self.clipboard.is_waiting()
+            && self.waiting.next_event().is_none()
             && !working
             && self.desk.is_some() == self.snapshot.is_some()
     }
@@ -324,6 +332,9 @@ impl Studio {
                     {
                         self.out.send(Command::Do(Action::LayoutAnnotate));
                     }
+                    if ended.is_err() && about.lane == Lane::Edit {
+                        self.forget_keys();
+                    }
                     if !(about.quiet && ended.is_err()) {
                         self.hear(ended, about.task);
                     }
@@ -365,28 +376,6 @@ impl Studio {
             && let Some((recording, piece, span)) = self.reel.wanted(at, direction)
         {
             self.out.work(movement::load(recording, piece, span));
-        }
-    }
-
-    /// Carries out the actions of keys, one after the other, before anything is drawn: text typed right after the
-    /// key that opens a field goes into that field.
-    fn take_keys(&mut self, ctx: &Context) {
-        while !self.overlays.takes_keys() {
-            let place = KeyContext {
-                corpus: self.snapshot.is_some(),
-                pane: self.pane,
-                typing: ctx.text_edit_focused() || self.panes.timeline.is_typing(),
-                focused: ctx.memory(|memory| memory.focused().is_some()),
-                held: self.panes.stage.is_held(ctx),
-                marked: clipboard::is_text_marked(ctx),
-                menu: egui::Popup::is_any_open(ctx),
-            };
-            let Some((action, text)) = ctx.input_mut(|input| self.keys.take(input, place)) else {
-                return;
-            };
-            self.clipboard.give(text);
-            self.out.send(Command::Do(action));
-            self.carry_out(ctx);
         }
     }
 
@@ -432,6 +421,7 @@ impl Studio {
                 desk,
                 out,
                 pane,
+                cursor,
                 sprung,
                 ..
             } = self;
@@ -458,6 +448,7 @@ impl Studio {
                 seen,
                 out,
                 pane,
+                cursor,
                 under: None,
                 chosen: None,
             };

@@ -150,6 +150,11 @@ impl Player {
         self.direction != 0.0
     }
 
+    /// Returns whether it plays on, and not only a part.
+    pub(crate) fn plays_on(&self) -> bool {
+        self.is_playing() && self.part.is_none()
+    }
+
     /// Returns the direction of playback: negative backwards, 0 paused.
     pub(crate) fn direction(&self) -> f64 {
         self.direction

@@ -1,7 +1,9 @@
 //! The panes in the window: their tabs, and what a strip of tabs without room for all of them offers.
 
+use eframe::egui::output::OutputEvent;
 use eframe::egui::{
-    Frame, Response, Role, Style, TextStyle, TextWrapMode, Ui, WidgetInfo, WidgetText,
+    Frame, Id, Popup, Rect, Response, Role, Stroke, StrokeKind, Style, TextStyle, TextWrapMode, Ui,
+    WidgetInfo, WidgetText,
 };
 use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
 
@@ -16,6 +18,8 @@ pub(crate) struct Workbench<'a> {
     pub(crate) seen: PaneInput<'a>,
     pub(crate) out: &'a mut Outbox,
     pub(crate) pane: &'a mut Option<PaneKind>,
+    /// The text field that has the cursor, or had it when the mouse was pressed, and its pane.
+    pub(crate) cursor: &'a mut Option<(PaneKind, Id)>,
     /// The pane whose tab is below the dragged thing.
     pub(crate) under: Option<PaneKind>,
     /// The tab that was chosen in the menu of a strip.
@@ -36,6 +40,48 @@ struct Strip {
     frames: u8,
 }
 
+/// The margin of a pane; the frame around the pane that has the focus lies in it.
+const MARGIN: f32 = 8.0;
+
+/// Returns the widget with the keyboard focus, if it lies in a part of the window, and not above it.
+fn focused_widget(ui: &Ui, part: Rect) -> Option<Response> {
+    let focused = ui.memory(|memory| memory.focused())?;
+    let response = ui.ctx().read_response(focused)?;
+    let inside = part.contains_rect(response.interact_rect);
+    (response.layer_id == ui.layer_id() && inside).then_some(response)
+}
+
+impl Workbench<'_> {
+    /// Leaves the cursor in the text field of a pane if a button of the pane was pressed; the pane reported what happened
+    /// to its widgets after `before` other reports.
+    fn keep_cursor(&mut self, ui: &Ui, part: Rect, (pane, before): (PaneKind, usize)) {
+        if ui.memory(|memory| memory.focused()).is_some() {
+            let field = focused_widget(ui, part).filter(|_| ui.ctx().text_edit_focused());
+            match (field, &self.cursor) {
+                (Some(field), _) => *self.cursor = Some((pane, field.id)),
+                (None, Some((of, _))) if *of == pane => *self.cursor = None,
+                _ => {}
+            }
+            return;
+        }
+        let Some((_, field)) = self.cursor.filter(|(of, _)| *of == pane) else {
+            return;
+        };
+        let is_button = |event: &OutputEvent| {
+            let info = event.widget_info();
+            let clicked = matches!(event, OutputEvent::Clicked(_));
+            clicked && info.role == Role::Button && info.selected.is_none()
+        };
+        let pressed = ui.output(|output| output.events[before..].iter().any(is_button));
+        let touched = ui.input(|input| input.pointer.any_down() || input.pointer.any_released());
+        if pressed && !Popup::is_any_open(ui.ctx()) {
+            ui.memory_mut(|memory| memory.request_focus(field));
+        } else if !touched {
+            *self.cursor = None;
+        }
+    }
+}
+
 /// Returns the offset of a strip, `room` wide, that has the tab from `left` to `right` in sight and is nearest to
 /// the present one.
 fn offset_for((left, right): (f32, f32), room: f32, offset: f32) -> f32 {
@@ -44,20 +90,25 @@ fn offset_for((left, right): (f32, f32), room: f32, offset: f32) -> f32 {
 
 impl Behavior<PaneKind> for Workbench<'_> {
     fn pane_ui(&mut self, ui: &mut Ui, _tile: TileId, kind: &mut PaneKind) -> UiResponse {
-        Frame::new().inner_margin(8).show(ui, |ui| {
+        Frame::new().inner_margin(MARGIN).show(ui, |ui| {
             let rect = ui.available_rect_before_wrap();
-            let pressed = ui.input(|input| {
-                input.pointer.any_pressed()
-                    && input
-                        .pointer
-                        .interact_pos()
-                        .is_some_and(|at| rect.contains(at))
-            });
-            if pressed {
+            // A press on a list or a menu above the pane is none on the pane.
+            let pressed = ui.input(|input| input.pointer.any_pressed());
+            if pressed && ui.rect_contains_pointer(rect)
+                || focused_widget(ui, rect).is_some_and(|it| it.gained_focus())
+            {
                 *self.pane = Some(*kind);
             }
+            let before = ui.output(|output| output.events.len());
             self.panes.get_mut(*kind).ui(ui, &self.seen, self.out);
             ui.allocate_space(ui.available_size());
+            self.keep_cursor(ui, rect, (*kind, before));
+            if *self.pane == Some(*kind) {
+                let stroke = Stroke::new(1.5, self.seen.colours().accent);
+                let around = rect.expand(MARGIN - 1.0);
+                ui.painter()
+                    .rect_stroke(around, 0.0, stroke, StrokeKind::Inside);
+            }
         });
         UiResponse::None
     }
@@ -137,6 +188,11 @@ impl Behavior<PaneKind> for Workbench<'_> {
         tile: TileId,
         button: Response,
     ) -> Response {
+        if button.clicked()
+            && let Some(Tile::Pane(kind)) = tiles.get(tile)
+        {
+            *self.pane = Some(*kind);
+        }
         if button.contains_pointer()
             && carry::is_carrying(&button.ctx)
             && let Some(Tile::Pane(kind)) = tiles.get(tile)

@@ -98,7 +98,7 @@ fn the_shown_recording_is_exported_to_a_typed_path() {
     click(&mut window, "Write");
     idle(&mut window);
     until(&mut window, "the notice", |window| {
-        shows(window, "Written: 1 file")
+        shows(window, &format!("Written: all.csv in {}", folder.path().display()))
     });
     assert!(
         std::fs::read_to_string(&to)

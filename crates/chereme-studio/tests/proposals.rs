@@ -120,6 +120,61 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
 }
 
 #[test]
+fn enter_after_the_last_proposal_makes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(Options {
+        corpus: Some(uncoded(folder.path())),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "bol"));
+    idle(&mut window);
+    let press = |window: &mut Window<'_>, modifiers, key| {
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(4);
+        idle(window);
+        window.run_steps(4);
+    };
+    press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
+    let proposed = |name: &str| name.ends_with("(proposed)");
+    until(&mut window, "the proposals", |window| {
+        count(window, proposed) > 0
+    });
+    idle(&mut window);
+    window.run_steps(4);
+    let in_sight = window
+        .query_all_by_label_contains("(proposed)")
+        .any(|it| it.rect().bottom() < 1010.0);
+    assert!(in_sight, "they are scrolled to");
+    press(&mut window, Modifiers::ALT, Key::N);
+    let all = count(&window, proposed);
+    // Typed at once, each Enter waits for the one before it.
+    for _ in 0..all + 3 {
+        window.key_press(Key::Enter);
+    }
+    window.run_steps(2);
+    idle(&mut window);
+    window.run_steps(4);
+    assert_eq!(count(&window, proposed), 0, "{:?}", tiers(&window));
+    assert_eq!(count(&window, |name| name != "gloss"), all);
+    let text = "All proposals of this recording are accepted.";
+    assert!(window.query_all_by_label_contains(text).next().is_some());
+    // A tier of proposals takes no annotation of a person.
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowRight);
+    for (modifiers, key) in [
+        (Modifiers::COMMAND | Modifiers::ALT, Key::N),
+        (Modifiers::SHIFT, Key::Enter),
+        (Modifiers::SHIFT, Key::Enter),
+        (Modifiers::NONE, Key::Enter),
+        (Modifiers::NONE, Key::Num1),
+    ] {
+        press(&mut window, modifiers, key);
+        let mut fields = window.query_all_by_label_contains("Value on");
+        assert!(fields.next().is_none(), "{key:?}");
+    }
+    assert_eq!(count(&window, proposed), 0, "{:?}", tiers(&window));
+}
+
+#[test]
 fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = window(Options {

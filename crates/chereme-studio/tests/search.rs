@@ -224,9 +224,36 @@ fn facets_narrow_and_a_search_is_saved_renamed_and_deleted() {
         all.into_iter().map(|it| it.name).collect::<Vec<_>>()
     };
     assert_eq!(kept(), ["vees2"], "it is in the corpus");
-    click(&mut window, "Delete vees2");
+    // The name of another search is asked about, whatever its case.
+    let queries = || {
+        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+        let all = corpus.kept_searches().expect("read");
+        all.into_iter().map(|it| it.query).collect::<Vec<_>>()
+    };
+    let narrowed = queries();
+    let other = chereme_corpus::KeptSearch {
+        name: "vees2".into(),
+        query: "movement=arc".into(),
+    };
+    let mut corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+    corpus.keep_searches(&[other]).expect("kept");
+    until(&mut window, "the other search", |it| {
+        it.state().generation() == corpus.generation().ok()
+    });
+    click(&mut window, "Name of this search");
+    window.get_by_label("Name of this search").type_text("VEES2");
+    window.run_steps(2);
+    click(&mut window, "Save");
+    idle(&mut window);
+    assert_eq!(queries(), ["movement=arc"]);
+    click(&mut window, "Replace it");
+    until(&mut window, "the first search", |window| {
+        has(window, "Delete VEES2")
+    });
+    assert_eq!(queries(), narrowed);
+    click(&mut window, "Delete VEES2");
     until(&mut window, "an empty list", |window| {
-        !has(window, "Delete vees2")
+        !has(window, "Delete VEES2")
     });
     assert!(kept().is_empty());
 }

@@ -88,6 +88,13 @@ impl Chord {
         label + key
     }
 
+    /// Returns whether the chord is a digit, a letter or Delete alone, which code what is selected and are easily typed by
+    /// mistake.
+    pub(crate) fn is_for_coding(self) -> bool {
+        let written = (Key::Num0..=Key::Z).contains(&self.key);
+        !self.ctrl && !self.alt && (written || matches!(self.key, Key::Delete | Key::Backspace))
+    }
+
     /// Returns whether a focused handle on the stage uses the chord itself.
     pub(crate) fn is_for_handles(self) -> bool {
         const MOVING: [Key; 3] = [Key::PageUp, Key::PageDown, Key::Escape];

@@ -2,13 +2,14 @@
 
 pub(crate) mod chord;
 pub(crate) mod gestures;
+pub(crate) mod queue;
 
 use std::collections::BTreeMap;
 
-use eframe::egui::{Event, InputState, Key, Modifiers};
+use eframe::egui::{Event, Key, Modifiers};
 use serde::{Deserialize, Serialize};
 
-use crate::action::{ACTIONS, Action, Context};
+use crate::action::{ACTIONS, Action, ActionRow, Context, Owner};
 use crate::panes::PaneKind;
 use crate::words::{Language, Text, shell};
 use chord::Chord;
@@ -50,8 +51,10 @@ pub(crate) type Rebound = BTreeMap<String, Vec<Chord>>;
 pub(crate) struct KeyContext {
     /// Whether a corpus is open.
     pub(crate) corpus: bool,
-    /// The pane that was used last.
+    /// The pane that has the focus, if it is in sight.
     pub(crate) pane: Option<PaneKind>,
+    /// Whether the rows of the timeline have the focus, so that digits and letters code.
+    pub(crate) coding: bool,
     /// Whether a text field has the keyboard focus.
     pub(crate) typing: bool,
     /// Whether another widget has the keyboard focus.
@@ -132,14 +135,14 @@ impl Keys {
         if taken {
             return None;
         }
-        let counts = |context: Context| match context {
+        let counts = |row: &ActionRow| match row.context {
             Context::Everywhere => true,
-            Context::Corpus => place.corpus,
+            Context::Corpus => place.corpus && (!chord.is_for_coding() || place.may_code(row)),
             Context::Pane(pane) => place.corpus && place.pane == Some(pane),
         };
         let mut found = ACTIONS
             .iter()
-            .filter(|row| counts(row.context) && self.of(row.action).contains(&chord));
+            .filter(|row| counts(row) && self.of(row.action).contains(&chord));
         found
             .clone()
             .find(|row| matches!(row.context, Context::Pane(_)))
@@ -147,48 +150,36 @@ impl Keys {
             .map(|row| row.action)
     }
 
-    /// Removes the first pressed key that has an action from the input, and returns the action; for a paste, also the
-    /// pasted text.
-    ///
-    /// Takes one key at a time, since its action decides where later keys go, for example into a field.
-    pub(crate) fn take(
-        &self,
-        input: &mut InputState,
-        place: KeyContext,
-    ) -> Option<(Action, Option<String>)> {
+    /// Returns the action of an event, if it is a key with one, and whether the key only repeats as it is held.
+    pub(crate) fn action_of(&self, event: &Event, place: KeyContext) -> Option<(Action, bool)> {
         // egui reports these keys as copy, cut and paste events.
         let clipboard = |key| self.action(Chord::new(key, Modifiers::COMMAND), place);
-        loop {
-            let pressed = |event: &Event| match event {
-                Event::Copy if !place.marked => Some((clipboard(Key::C)?, false)),
-                Event::Cut if !place.marked => Some((clipboard(Key::X)?, false)),
-                Event::Paste(_) => Some((clipboard(Key::V)?, false)),
-                Event::Key {
-                    key,
-                    pressed: true,
-                    repeat,
-                    modifiers,
-                    ..
-                } => Some((self.action(Chord::new(*key, *modifiers), place)?, *repeat)),
-                _ => None,
-            };
-            let mut found = input.events.iter().enumerate();
-            let (at, (action, repeat)) = found.find_map(|(at, it)| Some((at, pressed(it)?)))?;
-            let text = match input.events.remove(at) {
-                Event::Paste(text) => Some(text),
-                Event::Key { key, .. } => {
-                    // The letter of a shortcut is no text for a field that is open or that the action opens.
-                    let letter = key == Key::Space || key.symbol_or_name().chars().count() == 1;
-                    if letter && matches!(input.events.get(at), Some(Event::Text(_))) {
-                        input.events.remove(at);
-                    }
-                    None
-                }
-                _ => None,
-            };
-            if !repeat || action.row().repeats {
-                return Some((action, text));
-            }
+        match event {
+            Event::Copy if !place.marked => Some((clipboard(Key::C)?, false)),
+            Event::Cut if !place.marked => Some((clipboard(Key::X)?, false)),
+            Event::Paste(_) => Some((clipboard(Key::V)?, false)),
+            Event::Key {
+                key,
+                pressed: true,
+                repeat,
+                modifiers,
+                ..
+            } => Some((self.action(Chord::new(*key, *modifiers), place)?, *repeat)),
+            _ => None,
+        }
+    }
+}
+
+impl KeyContext {
+    /// Returns whether a digit, a letter or Delete alone may carry out an action here: what is coded only in the rows of
+    /// the timeline, and playing also where the movement is looked at.
+    fn may_code(self, row: &ActionRow) -> bool {
+        use PaneKind::{Film, Stage, Timeline};
+        let looking = [None, Some(Stage), Some(Film)].contains(&self.pane) && !self.focused;
+        match row.owner {
+            Owner::Player => self.coding || looking,
+            Owner::In(Timeline) => self.coding,
+            _ => self.coding || !row.changes,
         }
     }
 }
@@ -200,6 +191,7 @@ mod tests {
     const AT: KeyContext = KeyContext {
         corpus: true,
         pane: None,
+        coding: false,
         typing: false,
         focused: false,
         held: false,
@@ -271,39 +263,38 @@ mod tests {
     }
 
     #[test]
-    fn the_letter_of_a_shortcut_is_no_text() {
-        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
-        let place = KeyContext {
-            pane: Some(PaneKind::Timeline),
-            typing: true,
+    fn digits_and_letters_code_only_in_the_rows_of_the_timeline() {
+        let place = |pane, coding, focused| KeyContext {
+            pane,
+            coding,
+            focused,
             ..AT
         };
-        let key = |key, pressed, modifiers| Event::Key {
-            key,
-            physical_key: None,
-            pressed,
-            repeat: false,
-            modifiers,
-        };
-        let text = |text: &str| Event::Text(text.to_owned());
-        let mut input = InputState::default();
-        input.events = vec![
-            key(Key::N, true, Modifiers::ALT),
-            text("n"),
-            key(Key::N, false, Modifiers::ALT),
-            key(Key::X, true, Modifiers::NONE),
-            text("x"),
-            key(Key::F2, true, Modifiers::NONE),
-            text("y"),
-        ];
-        let taken = std::iter::from_fn(|| keys.take(&mut input, place));
-        let taken: Vec<Action> = taken.map(|it| it.0).collect();
-        assert_eq!(taken, [Action::NextProposal, Action::EditValue]);
-        let left = input
-            .events
-            .iter()
-            .filter(|it| matches!(it, Event::Text(_)));
-        assert_eq!(left.collect::<Vec<_>>(), [&text("x"), &text("y")]);
+        let rows = place(Some(PaneKind::Timeline), true, false);
+        let mut others: Vec<KeyContext> = PaneKind::ALL
+            .into_iter()
+            .map(|pane| place(Some(pane), false, false))
+            .collect();
+        others.extend([AT, place(Some(PaneKind::Timeline), false, true)]);
+        for (keymap, _) in Keymap::ALL {
+            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
+            for row in ACTIONS.iter().filter(|row| row.context == Context::Corpus) {
+                let coding = keys.of(row.action).iter().filter(|it| it.is_for_coding());
+                for chord in coding {
+                    let action = Some(row.action);
+                    assert_eq!(keys.action(*chord, rows), action, "{}", row.id);
+                    let acting = others.iter().any(|it| keys.action(*chord, *it) == action);
+                    let plays = matches!(row.owner, Owner::Player);
+                    assert_eq!(acting, plays, "{keymap:?} {}", row.id);
+                }
+            }
+            let search = place(Some(PaneKind::Search), false, false);
+            assert_eq!(keys.action(chord("3"), search), None);
+            assert_eq!(keys.action(chord("L"), search), None);
+            let library = place(Some(PaneKind::Library), false, false);
+            let delete = keys.action(chord("Delete"), library);
+            assert_eq!(delete, Some(Action::DeleteListed));
+        }
     }
 
     #[test]

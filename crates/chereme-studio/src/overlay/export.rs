@@ -13,7 +13,7 @@ use crate::panes::complete::Line;
 use crate::panes::import::Paths;
 use crate::panes::recombine::selected_token;
 use crate::settings::Settings;
-use crate::words::{Text, export as words, fill, shell, spoken};
+use crate::words::{Language, Text, export as words, fill, shell, spoken};
 use crate::work::{Ended, Outcome, WorkId, exchange};
 
 /// The height of the window's title and edges, in points.
@@ -271,8 +271,7 @@ impl Export {
             ui.label(seen.say(words::STOPPED));
         }
         if let Some(report) = &self.written {
-            let text = written_text(report);
-            let text = fill(seen.say(text), &[("n", &report.files.len())]);
+            let text = written_text(report, seen.language);
             ui.label(RichText::new(text).color(seen.colours().good));
             ScrollArea::vertical().max_height(100.0).show(ui, |ui| {
                 for file in &report.files {
@@ -356,12 +355,22 @@ impl Export {
     }
 }
 
-/// Returns the text that reports the written files.
-pub(crate) fn written_text(report: &ExportReport) -> Text {
-    match report.files.len() {
+/// Returns the text that reports the written files and their folder.
+pub(crate) fn written_text(report: &ExportReport, language: Language) -> String {
+    let Some(first) = report.files.first() else {
+        return words::WRITTEN_NONE.of(language).to_owned();
+    };
+    let name = first.path.file_name().unwrap_or_default().display();
+    let folder = first.path.parent().unwrap_or(&first.path).display();
+    let text = match report.files.len() {
         1 => words::WRITTEN_ONE,
         _ => words::WRITTEN,
-    }
+    };
+    let n = report.files.len();
+    fill(
+        text.of(language),
+        &[("n", &n), ("name", &name), ("folder", &folder)],
+    )
 }
 
 fn what_text(seen: &PaneInput<'_>, what: &What) -> String {

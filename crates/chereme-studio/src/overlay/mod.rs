@@ -63,6 +63,7 @@ impl Studio {
         overlays.steps.ui(ctx, keys, little, settings.language);
         self.exporting(ctx);
         self.typing_path(ctx);
+        self.overlays.notices.take_escape(ctx);
     }
 }
 

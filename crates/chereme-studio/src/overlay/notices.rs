@@ -105,6 +105,8 @@ pub(crate) struct Notices {
     in_line: Option<u64>,
     pub(crate) all: Vec<Notice>,
     next: u64,
+    /// Whether Escape was pressed with no menu and no field open, so that it may close a notice.
+    pub(crate) may_close: bool,
 }
 
 impl Notices {
@@ -210,10 +212,7 @@ impl Notices {
                 let what = history::sentence(row, language);
                 fill(history::DONE_AGAIN.of(language), &[("what", &what)])
             }
-            Outcome::Exported(report) => {
-                let text = super::export::written_text(report);
-                fill(text.of(language), &[("n", &report.files.len())])
-            }
+            Outcome::Exported(report) => super::export::written_text(report, language),
             Outcome::Shared(picture) => {
                 let values: [(&str, &dyn std::fmt::Display); 2] =
                     [("title", &picture.title), ("path", &picture.path.display())];
@@ -302,6 +301,15 @@ impl Notices {
 
     pub(crate) fn dismiss(&mut self, id: u64) {
         self.all.retain(|notice| notice.id != id);
+    }
+
+    /// Removes the newest notice that stays, if Escape was pressed and nothing else took it.
+    pub(crate) fn take_escape(&mut self, ctx: &Context) {
+        let may_close = std::mem::take(&mut self.may_close);
+        let newest = self.all.iter().rposition(|notice| notice.stays);
+        if let Some(newest) = newest.filter(|_| may_close && super::escaped(ctx)) {
+            self.all.remove(newest);
+        }
     }
 
     fn add(&mut self, kind: NoticeKind, text: String, remedy: Option<String>, stays: bool) {

@@ -7,8 +7,9 @@ texts! {
     WHERE: "Where to", "Vers où";
     REPLACE: "Replace the existing file", "Remplacer ce qui s’y trouve";
     WRITE: "Write", "Écrire";
-    WRITTEN: "Written: {n} files", "Écrit : {n} fichiers";
-    WRITTEN_ONE: "Written: {n} file", "Écrit : {n} fichier";
+    WRITTEN: "Written: {n} files in {folder}", "Écrit : {n} fichiers dans {folder}";
+    WRITTEN_ONE: "Written: {name} in {folder}", "Écrit : {name} dans {folder}";
+    WRITTEN_NONE: "Nothing was written.", "Rien n’a été écrit.";
     STOPPED: "Stopped; nothing was written.", "Arrêté ; rien n’a été écrit.";
     TOKEN: "The selected token {name}", "L’occurrence sélectionnée {name}";
     TIER: "The tier {name}", "L’acteur {name}";

@@ -85,6 +85,8 @@ texts! {
     LEAVE_BEHIND: "Forget them", "Les oublier";
     SAVE_NAME: "Name of this search", "Nom de cette recherche";
     SAVE: "Save", "Enregistrer";
+    REPLACES: "Another search is saved as “{name}”.", "Une autre recherche s’appelle « {name} ».";
+    REPLACE: "Replace it", "La remplacer";
     NO_SAVED: "No search is saved yet.", "Aucune recherche enregistrée.";
     RENAME: "Rename {name}", "Renommer {name}";
     RENAME_SHORT: "Rename", "Renommer";

@@ -63,6 +63,10 @@ texts! {
     DRAFT_BACK: "Your unfinished text is back: Enter keeps it, Escape drops it.", "Ce que vous écriviez est revenu : Entrée le garde, Échap l’abandonne.";
     DRAFT_LOST: "Your unfinished text has no place any more: “{text}”", "Ce que vous écriviez n’a plus de place : « {text} »";
     DRAFT_LOST_REMEDY: "Its annotation or tier is gone. Type it elsewhere, or undo what removed it.", "Son annotation ou son acteur n’existe plus. Écrivez-le ailleurs, ou annulez ce qui l’a supprimé.";
+    KEYS_FORGOTTEN: "Keys typed after it were not used: “{text}”", "Les touches suivantes n’ont pas servi : « {text} »";
+    KEYS_FORGOTTEN_REMEDY: "They were meant for the change that was refused. Type them again.", "Elles suivaient la modification refusée. Tapez-les à nouveau.";
+    ALL_ACCEPTED: "All proposals of this recording are accepted.", "Toutes les propositions de cet enregistrement sont acceptées.";
+    HOLDS_PROPOSALS: "This tier holds proposals. Choose the tier of a person to annotate.", "Cet acteur porte des propositions. Choisissez l’acteur d’une personne pour annoter.";
     TO_LEFT: "left", "gauche";
     TO_RIGHT: "right", "droite";
     TO_UP: "up", "haut";

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, SendError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ pub(crate) enum News {
     Copied(Result<PathBuf, Error>),
     /// The progress of a piece of work.
     Far(WorkId, Far),
-    /// The result of a piece of work.
+    /// The result of a piece of work; that of an edit comes after the snapshot that shows it.
     Ended(WorkId, Ended, About),
 }
 
@@ -54,8 +54,8 @@ struct Order {
 }
 
 enum SnapshotRequest {
-    /// Read again, after work of this window.
-    Again,
+    /// Read again after work of this window, and pass on its end once the snapshot shows its result.
+    After(News),
     /// Include the tiers of this recording in the snapshots.
     Recording(Option<i64>),
     /// Save a copy there.
@@ -212,11 +212,17 @@ impl Station {
                 self.edits.fetch_add(1, Ordering::SeqCst);
             }
             let ended = self.carry_out(&mut corpus, id, job, &stop);
-            if edits {
-                self.edits.fetch_add(1, Ordering::SeqCst);
-                let _ = reader.send(SnapshotRequest::Again);
+            let ended = News::Ended(id, ended, about);
+            if !edits {
+                self.say(ended);
+                continue;
             }
-            self.say(News::Ended(id, ended, about));
+            self.edits.fetch_add(1, Ordering::SeqCst);
+            if let Err(SendError(SnapshotRequest::After(ended))) =
+                reader.send(SnapshotRequest::After(ended))
+            {
+                self.say(ended);
+            }
         }
     }
 
@@ -264,6 +270,7 @@ impl Station {
             snapshot: Snapshot::default(),
         };
         let (mut stood, mut before) = (true, 0);
+        let mut ended = Vec::new();
         loop {
             let stands = self.place.stands();
             if std::mem::replace(&mut stood, stands) != stands {
@@ -278,12 +285,13 @@ impl Station {
                 Ok(false) => {}
                 Err(error) => self.say(News::Unread(error)),
             }
+            ended.drain(..).for_each(|news| self.say(news));
             // Work that is running has not ended: count it again at the next reading.
             before = begun & !1;
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
                 match wish {
-                    SnapshotRequest::Again => {}
+                    SnapshotRequest::After(news) => ended.push(news),
                     SnapshotRequest::Recording(recording) => reading.recording = recording,
                     SnapshotRequest::Copy(to) => {
                         let saved = reading.corpus.save_copy(&to).map(|()| to);

@@ -395,6 +395,7 @@ impl Recombine {
             }
             if !self.stack.is_empty() && ui.small_button(seen.say(words::CLEAR)).clicked() {
                 self.open("", None, None);
+                self.come = true;
             }
             label
         });

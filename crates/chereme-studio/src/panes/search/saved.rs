@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use chereme_corpus::{KeptSearch, SearchOptions};
 use chereme_sign::query::Query;
+use chereme_sign::text::fold;
 use eframe::egui::{Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Ui, WidgetInfo};
 
 use crate::command::Command;
@@ -20,6 +21,8 @@ pub(super) struct Kept {
     /// The name for the query to save, and the search that is being renamed.
     name: String,
     renaming: Option<(String, String)>,
+    /// The name of a saved search that the query is to replace, if the user agrees.
+    replacing: Option<String>,
     /// Whether the list was just opened, so that the name takes the keyboard.
     opened: bool,
     /// The number of hits of each saved search, if counted.
@@ -99,9 +102,38 @@ impl Kept {
             let entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let pressed = ui.add_enabled(named, save).clicked();
             if named && (pressed || entered) {
-                let name = std::mem::take(&mut self.name);
-                let query = query.to_owned();
-                out.work(searching::save_searches(vec![KeptSearch { name, query }]));
+                let all = &seen.snapshot.overview.searches;
+                // Names differ by more than case and accents.
+                let same = |kept: &&KeptSearch| fold(&kept.name) == fold(self.name.trim());
+                let other = all.iter().find(same).filter(|kept| kept.query != query);
+                self.replacing = other.map(|kept| kept.name.clone());
+                if self.replacing.is_none() {
+                    self.save(query, out);
+                }
+            }
+        });
+        self.replace(ui, seen, out, query);
+    }
+
+    fn save(&mut self, query: &str, out: &mut Outbox) {
+        let name = std::mem::take(&mut self.name);
+        let query = query.to_owned();
+        out.work(searching::save_searches(vec![KeptSearch { name, query }]));
+    }
+
+    /// Asks whether the query replaces the saved search of its name, while that is open.
+    fn replace(&mut self, ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox, query: &str) {
+        let typed = fold(self.name.trim());
+        let asked = self.replacing.take();
+        let Some(name) = asked.filter(|name| fold(name) == typed) else {
+            return;
+        };
+        ui.horizontal_wrapped(|ui| {
+            ui.label(fill(seen.say(words::REPLACES), &[("name", &name)]));
+            if ui.button(seen.say(words::REPLACE)).clicked() {
+                self.save(query, out);
+            } else {
+                self.replacing = Some(name);
             }
         });
     }

@@ -61,13 +61,12 @@ pub(super) fn show(timeline: &mut Timeline, ui: &mut Ui, scene: &Scene<'_>, out:
         });
     match done.and_then(|at| DETECTORS.get(at)) {
         Some(detector) => {
-            out.work(analysis::detect(
-                DetectOptions {
-                    detector: detector.name().to_owned(),
-                    scope,
-                },
-                scene.seen.language,
-            ));
+            let options = DetectOptions {
+                detector: detector.name().to_owned(),
+                scope,
+            };
+            let work = out.work(analysis::detect(options, scene.seen.language));
+            timeline.asked.proposing = Some(work);
         }
         None if !closed => timeline.boxes.detectors = Some(list),
         None => {}

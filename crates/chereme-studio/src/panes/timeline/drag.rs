@@ -307,7 +307,9 @@ impl Drawing<'_, '_> {
         };
         match gesture {
             Gesture::Create { tier, span, .. } if span.1 > span.0 => {
-                self.timeline.edit_new(&scene, tier, span);
+                if let Some(tier) = scene.tier_of(tier) {
+                    self.begin_value(tier, span);
+                }
             }
             Gesture::Drag(it) => self.drop_at(&scene, &it),
             _ => {}

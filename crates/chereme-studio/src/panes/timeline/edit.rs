@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use chereme_corpus::snap::Frames;
 use chereme_corpus::tier_values::{self, TierValues};
-use chereme_corpus::{AnnotationChange, Contents, StoredInventory, TierContents, requests};
+use chereme_corpus::{
+    AnnotationChange, Contents, StoredInventory, TierContents, proposed_for, requests,
+};
 use chereme_motion::Span;
 
 use super::dragged::{self, DraggedAnnotations, TierTiming};
@@ -172,10 +174,7 @@ fn create(timeline: &mut Timeline, scene: &Scene<'_>) -> Acted {
         };
     };
     match dragged::room(scene.contents, tier, wanted) {
-        Some(span) => {
-            timeline.edit_new(scene, tier.row.id, span);
-            Acted::Yes
-        }
+        Some(span) => timeline.edit_new(tier, span),
         None => Acted::Cannot(no_room(tier)),
     }
 }
@@ -214,6 +213,11 @@ pub(super) fn has_pictures(inventory: &chereme_sign::Inventory) -> bool {
     pickers::data::kind(inventory) != pickers::data::PickerForm::Names
 }
 
+/// Returns whether a tier holds proposals, which detectors add and people accept.
+pub(super) fn holds_proposals(tier: &TierContents) -> bool {
+    proposed_for(&tier.row.name).is_some()
+}
+
 /// Returns the reason why a tier has no room for an annotation.
 pub(super) fn no_room(tier: &TierContents) -> crate::words::Text {
     match TierTiming::of(&tier.row) {
@@ -222,7 +226,8 @@ pub(super) fn no_room(tier: &TierContents) -> crate::words::Text {
     }
 }
 
-/// Begins an annotation at the playhead, or ends the one that was begun.
+/// Begins an annotation at the playhead, or ends the one that was begun; its value is typed next if it has none and the
+/// playhead rests.
 fn begin_or_end(
     timeline: &mut Timeline,
     scene: &Scene<'_>,
@@ -232,6 +237,9 @@ fn begin_or_end(
     let Some(tier) = scene.tier() else {
         return Acted::Cannot(words::NEEDS_TIER);
     };
+    if holds_proposals(tier) {
+        return Acted::Cannot(words::HOLDS_PROPOSALS);
+    }
     let here = scene.boundary();
     let Some(begun) = timeline.entry.begun.take() else {
         timeline.entry.begun = Some(Begun {
@@ -257,7 +265,11 @@ fn begin_or_end(
     match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
             let add = requests::add(begun.tier, span, &begun.value);
-            timeline.change(vec![add], Then::added(begun.tier, span), out)
+            let then = Then {
+                edit: begun.value.is_empty() && !scene.seen.shown.player.plays_on(),
+                ..Then::added(begun.tier, span)
+            };
+            timeline.change(vec![add], then, out)
         }
         None => Acted::Cannot(no_room(tier)),
     }
@@ -274,9 +286,8 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
     let Some(value) = given.get(digit).cloned() else {
         return Acted::Cannot(words::NO_DIGIT);
     };
-    let (shown, player) = (scene.seen.shown, &scene.seen.shown.player);
-    let plays_on = player.is_playing() && player.part.is_none();
-    if plays_on || timeline.entry.begun.is_some() {
+    let shown = scene.seen.shown;
+    if shown.player.plays_on() || timeline.entry.begun.is_some() {
         return begin_or_end(timeline, scene, Some(&value), out);
     }
     if !shown.annotations.is_empty() {
@@ -289,6 +300,9 @@ fn by_digit(timeline: &mut Timeline, scene: &Scene<'_>, digit: usize, out: &mut 
     let Some(wanted) = scene.selection() else {
         return Acted::Cannot(shell::NEEDS_SELECTION);
     };
+    if holds_proposals(tier) {
+        return Acted::Cannot(words::HOLDS_PROPOSALS);
+    }
     match dragged::room(scene.contents, tier, wanted) {
         Some(span) => {
             let add = requests::add(tier.row.id, span, &value);

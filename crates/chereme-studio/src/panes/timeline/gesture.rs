@@ -12,7 +12,7 @@
 
 use std::collections::BTreeSet;
 
-use chereme_corpus::Contents;
+use chereme_corpus::{Contents, TierContents};
 use chereme_motion::{Instant, Span};
 use eframe::egui::{CursorIcon, Modifiers, Pos2, Rect, Response, Ui};
 
@@ -22,6 +22,7 @@ use super::spans::{Grip, Item};
 use super::ui::Drawing;
 use super::{data, edit, select};
 use crate::command::Command;
+use crate::panes::Acted;
 use crate::words::{Text, timeline as words};
 
 /// The distance from an edge within which the edge is grabbed, in points.
@@ -306,8 +307,15 @@ impl Drawing<'_, '_> {
         };
         let wanted = (span.start().micros(), span.end().micros());
         match dragged::room(contents, tier, wanted) {
-            Some(room) => self.timeline.edit_new(&scene, tier.row.id, room),
+            Some(room) => self.begin_value(tier, room),
             None => self.hint(edit::no_room(tier)),
+        }
+    }
+
+    /// Opens the field for the value of a new annotation, or says why there can be none.
+    pub(super) fn begin_value(&mut self, tier: &TierContents, span: (i64, i64)) {
+        if let Acted::Cannot(text) = self.timeline.edit_new(tier, span) {
+            self.hint(text);
         }
     }
 

@@ -53,13 +53,16 @@ mod view_settings;
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use chereme_corpus::{TierContents, requests};
+use chereme_corpus::{TierContents, TierRole, requests};
+use eframe::egui::{Context, Id};
 use serde::{Deserialize, Serialize};
 
 use crate::action::Action;
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::panes::{Acted, Pane};
+use crate::player::Player;
+use crate::words::timeline as words;
 use crate::work::{Ended, Outcome, WorkId, editing};
 use chereme_sign::tier::spans::{self, Item};
 use data::Window;
@@ -196,26 +199,49 @@ impl Timeline {
         let text = found.map(|it| requests::typed(&it.tier.annotations, it.at));
         let recording = scene.contents.recording.id;
         let target = Target::Of(annotations);
-        self.entry.editing = Some(Editing::new(recording, target, text.unwrap_or_default()));
+        self.open_field(Editing::new(recording, target, text.unwrap_or_default()));
     }
 
     /// Opens the value of the annotation at that index of a tier.
     fn edit_at(&mut self, tier: &TierContents, at: usize) {
         let text = requests::typed(&tier.annotations, at);
         let target = Target::Of(BTreeSet::from([tier.annotations.ids[at]]));
-        self.entry.editing = Some(Editing::new(tier.row.recording_id, target, text));
+        self.open_field(Editing::new(tier.row.recording_id, target, text));
     }
 
     /// Opens the value of an annotation that does not exist yet.
-    fn edit_new(&mut self, scene: &Scene<'_>, tier: i64, (start, end): (i64, i64)) {
-        let recording = scene.contents.recording.id;
+    fn edit_new(&mut self, tier: &TierContents, (start, end): (i64, i64)) -> Acted {
+        if edit::holds_proposals(tier) {
+            return Acted::Cannot(words::HOLDS_PROPOSALS);
+        }
+        let recording = tier.row.recording_id;
+        let tier = tier.row.id;
         let target = Target::New { tier, start, end };
-        self.entry.editing = Some(Editing::new(recording, target, String::new()));
+        self.open_field(Editing::new(recording, target, String::new()));
+        Acted::Yes
+    }
+
+    /// Opens the field for a value, with its tier in sight.
+    fn open_field(&mut self, editing: Editing) {
+        self.entry.editing = Some(editing);
+        self.show_tier();
     }
 
     /// Brings the selected tier into sight.
     pub(crate) fn show_tier(&mut self) {
         self.view.reveal = true;
+    }
+
+    /// Returns whether a new annotation is about to be selected, so that keys for it wait.
+    pub(crate) fn awaits_selection(&self) -> bool {
+        !self.asked.to_select.is_empty() && self.view.drawn
+    }
+
+    /// Returns whether a widget is an annotation or the name of a tier, in the rows.
+    pub(crate) fn has_row_widget(&self, ctx: &Context, widget: Id) -> bool {
+        let widget = ctx.read_response(widget).map(|it| it.interact_rect);
+        let rows = self.layout.area.zip(widget);
+        rows.is_some_and(|(rows, widget)| rows.contains_rect(widget))
     }
 
     /// Returns whether a value is being typed, so that letters are not shortcuts.
@@ -262,6 +288,18 @@ impl Timeline {
     pub(crate) fn restore(&mut self, draft: Draft) {
         self.entry.restore(draft);
     }
+}
+
+/// Returns whether the tier that edits apply to holds glosses.
+pub(crate) fn is_on_gloss(seen: &PaneInput<'_>) -> bool {
+    let tier = Scene::of(seen).and_then(|scene| scene.tier());
+    tier.is_some_and(|tier| tier.row.role == TierRole::Gloss)
+}
+
+/// Returns whether an action takes the time of the playhead while it moves.
+pub(crate) fn is_timed(action: Action, player: &Player) -> bool {
+    let marks = action == Action::BeginEndAnnotation || edit::DIGITS.contains(&action);
+    marks && player.plays_on()
 }
 
 impl Pane for Timeline {
@@ -323,6 +361,9 @@ impl Pane for Timeline {
                 Ok(_) => self.boxes.tier_named = tier.added(),
                 Err(_) => self.boxes.tier_box = Some(tier),
             }
+        }
+        if self.asked.proposing.take_if(|asked| *asked == id).is_some() {
+            self.asked.to_propose = ended.is_ok();
         }
         let Some(then) = self.asked.pending.remove(&id) else {
             return;

@@ -90,8 +90,7 @@ fn new(timeline: &mut Timeline, scene: &Scene<'_>, after: bool, out: &mut Outbox
             let Some(span) = span else {
                 return Acted::Cannot(words::NO_ROOM_BESIDE);
             };
-            timeline.edit_new(scene, tier.row.id, span);
-            Acted::Yes
+            timeline.edit_new(tier, span)
         }
     }
 }

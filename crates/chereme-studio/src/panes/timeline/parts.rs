@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet, VecDeque};
 use std::sync::Arc;
 
-use chereme_motion::Span;
+use chereme_motion::{Instant, Span};
 
 use super::data::Window;
 use super::editor::Editing;
@@ -27,8 +27,9 @@ pub(super) struct View {
     pub(super) width: f32,
     /// The playhead in the last frame, in microseconds.
     pub(super) playhead: i64,
-    /// Whether to bring the selected tier into sight.
+    /// Whether to bring the selected tier into sight, and a tier to bring there instead of it.
     pub(super) reveal: bool,
+    pub(super) other_tier: Option<i64>,
     /// Whether the pane was in sight in this frame, or the last.
     pub(super) drawn: bool,
 }
@@ -47,6 +48,14 @@ impl View {
         let known = self.windows.remove(&recording);
         self.window = known.flatten();
         known.is_none()
+    }
+
+    /// Brings a tier and a moment into sight.
+    pub(super) fn bring_into_sight(&mut self, tier: i64, moment: Instant, whole: Span) {
+        (self.reveal, self.other_tier) = (true, Some(tier));
+        let (moment, width) = (moment.micros() as f64, self.width);
+        let follows = |window: Window| window.following(moment, whole, width);
+        self.window = self.window.map(follows);
     }
 
     pub(super) fn zoom(&mut self, factor: f64, seen: &PaneInput<'_>) {
@@ -96,6 +105,9 @@ pub(super) struct Asked {
     pub(super) to_select: BTreeSet<i64>,
     /// Whether to type the value of an annotation as soon as it is selected.
     pub(super) to_edit: bool,
+    /// The work that makes proposals, and whether they are there and to be shown.
+    pub(super) proposing: Option<WorkId>,
+    pub(super) to_propose: bool,
 }
 
 impl Asked {

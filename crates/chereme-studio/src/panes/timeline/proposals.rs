@@ -6,7 +6,7 @@ use chereme_corpus::{Contents, Name, ProposeOptions, ProposeScope, Proposed, pro
 use chereme_motion::Instant;
 
 use super::detector_list::ChooseDetector;
-use super::edit::Scene;
+use super::edit::{self, Scene};
 use super::{Then, Timeline};
 use crate::action::Action;
 use crate::command::Command;
@@ -37,10 +37,11 @@ pub(super) fn act(
 ) -> Acted {
     match action {
         Action::Propose => {
-            out.work(analysis::propose(ProposeOptions {
+            let options = ProposeOptions {
                 components: Proposed::COMPONENTS.to_vec(),
                 scope: scope(scene),
-            }));
+            };
+            timeline.asked.proposing = Some(out.work(analysis::propose(options)));
         }
         Action::Detect => timeline.boxes.detectors = Some(ChooseDetector::default()),
         Action::NextProposal => match next(&all(scene.contents), here(scene)) {
@@ -49,21 +50,32 @@ pub(super) fn act(
         },
         Action::AcceptProposal | Action::EnterValue => {
             let chosen = chosen(scene);
+            let mut left = all(scene.contents);
+            left.retain(|it| !chosen.contains(&it.id));
+            let next = next(&left, here(scene));
             if chosen.is_empty() {
-                return match action {
-                    Action::EnterValue => Acted::No,
+                let reviewing = scene.seen.shown.annotations.is_empty()
+                    && scene.tier().is_some_and(edit::holds_proposals);
+                return match next {
+                    Some(next) if reviewing => {
+                        go(timeline, next, out);
+                        Acted::Yes
+                    }
+                    None if reviewing => Acted::Cannot(words::ALL_ACCEPTED),
+                    _ if action == Action::EnterValue => Acted::No,
                     _ => Acted::Cannot(words::NO_PROPOSAL),
                 };
             }
-            let all = all(scene.contents);
-            let left: Vec<Proposal> = all
-                .into_iter()
-                .filter(|it| !chosen.contains(&it.id))
-                .collect();
             let id = out.work(analysis::accept(chosen.into_iter().collect()));
             timeline.asked.pending.insert(id, Then::default());
-            if let Some(next) = next(&left, here(scene)) {
-                go(timeline, next, out);
+            match next {
+                Some(next) => go(timeline, next, out),
+                None => {
+                    // Another Enter begins nothing at the same time.
+                    out.send(Command::Span(None));
+                    let text = scene.seen.say(words::ALL_ACCEPTED);
+                    out.send(Command::Say(text.to_owned()));
+                }
             }
         }
         _ => return Acted::No,
@@ -138,6 +150,15 @@ fn next(all: &[Proposal], here: (i64, i64, i64)) -> Option<Proposal> {
     let found = doubtful().find(after).or_else(|| doubtful().next());
     let found = found.or_else(|| all.iter().find(after));
     found.or_else(|| all.first()).copied()
+}
+
+/// Brings the next doubtful proposal into sight.
+pub(super) fn show_next(timeline: &mut Timeline, scene: &Scene<'_>) {
+    if let Some(next) = next(&all(scene.contents), here(scene)) {
+        let whole = scene.seen.shown.player.whole;
+        let start = Instant::from_micros(next.start);
+        timeline.view.bring_into_sight(next.tier, start, whole);
+    }
 }
 
 /// Selects a proposal, and moves the playhead to it.

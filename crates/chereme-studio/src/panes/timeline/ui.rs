@@ -14,7 +14,8 @@ use super::data::{self, Window, time_text};
 use super::edit::Scene;
 use super::rows::TimelineRow;
 use super::{
-    Timeline, bar, detector_list, go_to_time, paint, paste_box, select, tier_box, tier_list,
+    Timeline, bar, detector_list, go_to_time, paint, paste_box, proposals, select, tier_box,
+    tier_list,
 };
 use crate::action::Action;
 use crate::command::Command;
@@ -38,6 +39,8 @@ const NAMED: f32 = 8.0;
 /// The layout of the rows, kept between frames.
 #[derive(Debug, Default)]
 pub(super) struct Layout {
+    /// The place of the rows on the screen.
+    pub(super) area: Option<Rect>,
     /// The visible tiers, by index in the recording's list, with their vertical ranges.
     pub(super) rows: Vec<(usize, Rangef)>,
     /// All rows, and the inputs that they were computed from.
@@ -219,18 +222,27 @@ fn no_recordings(ui: &mut Ui, seen: &PaneInput<'_>, out: &mut Outbox) {
 /// Selects added annotations, and forgets ghosts that the snapshot contains.
 fn follow_up(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) {
     timeline.asked.settle(scene.seen.snapshot.open.as_ref());
-    let first = timeline.asked.to_select.first();
-    if first.is_some_and(|id| scene.seen.snapshot.annotation(*id).is_some()) {
-        let all = std::mem::take(&mut timeline.asked.to_select);
-        if std::mem::take(&mut timeline.asked.to_edit) {
+    // Another recording may have been opened meanwhile.
+    let all = std::mem::take(&mut timeline.asked.to_select);
+    let first = all.first();
+    if let Some(made) = first.and_then(|id| scene.seen.snapshot.annotation(*id)) {
+        let span = made.tier.annotations.span(made.at);
+        let whole = scene.seen.shown.player.whole;
+        timeline
+            .view
+            .bring_into_sight(made.tier.row.id, span.start(), whole);
+        if timeline.asked.to_edit {
             timeline.edit(scene, all.clone());
         }
-        let one = all.first().filter(|_| all.len() == 1);
-        if let Some(it) = one.and_then(|id| scene.seen.snapshot.annotation(*id)) {
-            let span = it.tier.annotations.span(it.at);
+        if all.len() == 1 {
             out.send(Command::Span(Some(span)));
         }
+        out.send(Command::Tier(Some(made.tier.row.id)));
         out.send(Command::Annotations(all));
+    }
+    timeline.asked.to_edit = false;
+    if std::mem::take(&mut timeline.asked.to_propose) {
+        proposals::show_next(timeline, scene);
     }
     let restored = timeline
         .entry
@@ -337,6 +349,7 @@ impl Drawing<'_, '_> {
 
     fn rows(&mut self, ui: &mut Ui, contents: &Contents) {
         let area = ui.available_rect_before_wrap();
+        self.timeline.layout.area = Some(area);
         let all = std::mem::take(&mut self.timeline.layout.all);
         self.timeline.layout.rows.clear();
         let ghosts = std::mem::take(&mut self.timeline.asked.ghosts);
@@ -395,7 +408,15 @@ impl Drawing<'_, '_> {
         if !std::mem::take(&mut self.timeline.view.reveal) {
             return None;
         }
-        let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == self.seen.shown.tier;
+        let other = &mut self.timeline.view.other_tier;
+        // New rows can be scrolled to in the next frame.
+        let other = if self.timeline.layout.grown {
+            *other
+        } else {
+            other.take()
+        };
+        let wanted = other.or(self.seen.shown.tier);
+        let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == wanted;
         let number = all.iter().position(is)?;
         let at = number as f32 * ROW;
         let top = self.timeline.layout.top;
