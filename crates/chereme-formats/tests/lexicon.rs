@@ -1,5 +1,8 @@
 //! Lexicon tables: the meaning of columns and cells, findings, and round trips.
 
+#[path = "lexicon/titles.rs"]
+mod titles;
+
 use chereme_formats::lexicon::{self, Lexicon, Meaning};
 use chereme_formats::roles::Mapping;
 use chereme_formats::table::TableError;
@@ -129,10 +132,56 @@ fn cells_are_split_into_separate_values() {
         ("Handedness", "2s", "configuration.handedness=2s"),
         ("Repeated Movement", "yes", "movement.repeated=yes"),
         ("Final location", "chest", "final.placement=chest"),
+        ("Movement", "None", "movement=None"),
+        ("Movement shape", "none", "movement.shape=none"),
+        ("Contact type", "None", "placement.contact=None"),
+        ("Location", "None", ""),
+        ("Handshape weak", "NA", "weak.configuration=not applicable"),
     ] {
         let (lexicon, _) = read(&format!("gloss\t{title}\nX\t{cell}\n"));
         assert_eq!(codings(&lexicon, 0).join(" "), expected, "{title}: {cell}");
     }
+}
+
+#[test]
+fn beside_a_final_value_of_another_column_the_value_is_initial() {
+    for (titles, cells, wanted) in [
+        (
+            "Handshape\tFinal handshape\tLocation\tFinal location",
+            "B\tS\tchin\t",
+            "initial.dominant.configuration=B final.dominant.configuration=S placement=chin",
+        ),
+        (
+            "Handshape strong\tHandshape change\tHandshape weak",
+            "B\t>S\tB",
+            "initial.dominant.configuration=B final.dominant.configuration=S weak.configuration=B",
+        ),
+        (
+            "MinorLocation.2.0\tSecondMinorLocation.2.0",
+            "Palm\tNA",
+            "initial.placement.minor=Palm final.placement.minor=not applicable",
+        ),
+        (
+            "Location\tEmplacement\tFinal location",
+            "chin > nose\tcheek\tchest",
+            "initial.placement=chin final.placement=nose placement=cheek final.placement=chest",
+        ),
+    ] {
+        let (lexicon, _) = read(&format!("gloss\t{titles}\nX\t{cells}\n"));
+        assert_eq!(codings(&lexicon, 0).join(" "), wanted, "{titles}");
+    }
+}
+
+#[test]
+fn handshapes_in_a_column_of_changes_are_announced() {
+    let (_, findings) =
+        read("gloss\tHandshape change\nA\tclosing\nB\t>S\nC\t>5\nD\topening > closing\n");
+    assert_eq!(
+        findings,
+        [
+            "cells of \"Handshape change\" that name handshapes, such as \">S\", were taken for these: 2"
+        ]
+    );
 }
 
 #[test]
@@ -184,51 +233,6 @@ fn columns_are_recognised_by_title_and_by_mapping() {
             "final.placement=b"
         ]
     );
-}
-
-#[test]
-fn columns_of_measures_are_attributes_and_never_components() {
-    let text = "EntryID\tHandshape.2.0\tHandshape.2.0Frequency\tMajorLocation.2.0\tMajorLocation.2.0Frequency\t\
-                Movement.2.0Frequency\tRepeatedMovement.2.0\tSignFrequency(M)\tIconicity(M)\tGlossConfidence\t\
-                LexicalClass\nabout\topen_b\t0.12\thead\t0.457\t0.345\t1\t4,19\t1.50\t0.9\tMinor\n\
-                above\t5\t0.2\tneutral\t0.1\t0.2\t0\t3\t\t1\tNoun\n";
-    let (lexicon, findings) = read(text);
-    assert_eq!(
-        codings(&lexicon, 0),
-        [
-            "dominant.configuration=open_b",
-            "placement=head",
-            "movement.repeated=1"
-        ]
-    );
-    let own: Vec<String> = (lexicon.entries[0].attributes.iter())
-        .map(|(name, text)| format!("{name}={text}"))
-        .collect();
-    assert_eq!(
-        own,
-        [
-            "Handshape.2.0Frequency=0.12",
-            "MajorLocation.2.0Frequency=0.457",
-            "Movement.2.0Frequency=0.345",
-            "SignFrequency(M)=4,19",
-            "Iconicity(M)=1.50",
-            "GlossConfidence=0.9",
-            "LexicalClass=Minor"
-        ]
-    );
-    assert_eq!(
-        lexicon.entries[1].attributes.len(),
-        6,
-        "an empty cell gives none"
-    );
-    assert_eq!(findings.len(), 1, "{findings:?}");
-    assert!(findings[0].contains("\"LexicalClass\" are kept as attributes"));
-    let mapping = r#"{"columns": {"*Frequency": "note", "LexicalClass": "translation", "MajorLocation.2.0": "attribute"}}"#;
-    let mapping = Mapping::from_json(mapping).expect("a mapping");
-    let (lexicon, _) = lexicon::read(text.as_bytes(), &mapping).expect("a table");
-    assert_eq!(lexicon.columns[2].meaning, Meaning::Note);
-    assert_eq!(lexicon.columns[3].meaning, Meaning::Attribute);
-    assert_eq!(lexicon.entries[1].translations[0].1, "Noun");
 }
 
 #[test]
@@ -319,45 +323,6 @@ fn arrows_part_successive_values_and_what_programs_write_for_nothing_is_counted(
             "values that programs write for an empty cell were taken as unset: \"#N/A\" once, \"None\" once, \"nan\" 2 times"
         ]
     );
-}
-
-#[test]
-fn titles_are_found_below_headings_and_by_their_capital_letters() {
-    let rows = "A;B;chin\n\"B, C\";5;nose\n";
-    for (text, line, found) in [
-        (
-            format!("sep=;\nNL gloss;Handshape strong;Location\n{rows}"),
-            3,
-            "",
-        ),
-        (
-            format!("Lexicon, NGT\n\nNL gloss;Handshape strong;Location\n{rows}"),
-            4,
-            "the titles of the columns are in line 3; the text above them was left out: \"Lexicon, NGT\"",
-        ),
-        (
-            format!("Gloss list;;\n;;\nNL gloss;Handshape strong;Location\n{rows}"),
-            4,
-            "the titles of the columns are in line 3; the text above them was left out: \"Gloss list;; / ;;\"",
-        ),
-        (format!("NlGloss;HandshapeStrong;Location\n{rows}"), 2, ""),
-        (format!("nlGloss;handshapeStrong;LOCATION\n{rows}"), 2, ""),
-    ] {
-        let (lexicon, findings) = read(&text);
-        assert_eq!(findings.join("; "), found, "{text}");
-        let entries = lexicon.entries.iter().map(|it| (&*it.gloss, it.line));
-        let entries: Vec<_> = entries.collect();
-        assert_eq!(entries, [("A", line), ("B, C", line + 1)], "{text}");
-        assert_eq!(
-            codings(&lexicon, 0),
-            ["dominant.configuration=B", "placement=chin"],
-            "{text}"
-        );
-    }
-    // A table of one column, and one whose second row is longer, keep their first row.
-    for text in ["gloss\nA, B\nC\n", "gloss,Location\nA,chin,,,more\n"] {
-        assert_eq!(read(text).0.columns[0].title, "gloss", "{text}");
-    }
 }
 
 #[test]
@@ -589,98 +554,4 @@ proptest! {
         let cells = |it: &Lexicon| it.entries.iter().map(|entry| entry.cells.clone()).collect::<Vec<_>>();
         prop_assert_eq!(cells(&again), cells(&lexicon));
     }
-}
-
-#[test]
-fn exports_of_signbank_and_asl_lex_are_understood_by_their_titles() {
-    let signbank = "Signbank ID,Dataset,Lemma ID Gloss (Dutch),Lemma ID Gloss (English),Annotation ID Gloss (Dutch),\
-        Annotation ID Gloss (English),Senses (Dutch),Handedness,Strong Hand,Weak Hand,Location,Contact Type,\
-        Movement Direction,Repeated Movement,Orientation Change,Mouthing\n\
-        12,NGT,PET,CAP,PET-A,CAP-A,pet,2a,B,B,head,brush,backwards,True,-,pet\n";
-    let (lexicon, _) = read(signbank);
-    assert_eq!(lexicon.entries[0].gloss, "PET-A");
-    let codings = codings(&lexicon, 0);
-    for wanted in [
-        "dominant.configuration=B",
-        "weak.configuration=B",
-        "placement=head",
-        "placement.contact=brush",
-        "movement.direction=backwards",
-        "nonmanual.mouthing=pet",
-    ] {
-        assert!(
-            codings.iter().any(|it| it == wanted),
-            "{wanted}: {codings:?}"
-        );
-    }
-    let asl_lex = "EntryID,LemmaID,SignFrequency(Z),SignType.2.0,MajorLocation.2.0,MinorLocation.2.0,SecondMinorLocation.2.0,\
-        Movement.2.0,RepeatedMovement.2.0,Contact.2.0,Handshape.2.0,NonDominantHandshape.2.0,SelectedFingers.2.0,Flexion.2.0,\
-        Spread.2.0,ThumbPosition.2.0,UlnarRotation.2.0\n\
-        cat,cat,0.31,OneHanded,Head,CheekNose,NA,Straight,1,1,f,NA,imrp,4,1,Open,0\n";
-    let (lexicon, _) = read(asl_lex);
-    let all = self::codings(&lexicon, 0);
-    for wanted in [
-        "configuration.handedness=OneHanded",
-        "placement=Head",
-        "placement.minor=CheekNose",
-        "dominant.configuration=f",
-        "dominant.configuration.selected-fingers=imrp",
-        "dominant.configuration.flexion=4",
-        "dominant.configuration.spread=1",
-        "dominant.configuration.thumb-position=Open",
-        "orientation.ulnar-rotation=0",
-    ] {
-        assert!(all.iter().any(|it| it == wanted), "{wanted}: {all:?}");
-    }
-    assert!(
-        !all.iter().any(|it| it.ends_with("=NA")),
-        "NA is no value: {all:?}"
-    );
-    let title = |column: &chereme_formats::lexicon::Column| {
-        (column.title == "SignFrequency(Z)").then(|| column.meaning.clone())
-    };
-    assert_eq!(
-        lexicon.columns.iter().find_map(title),
-        Some(Meaning::Attribute)
-    );
-}
-
-#[test]
-fn a_table_of_signbank_names_signs_by_their_annotation_gloss() {
-    let text = "Signbank ID,Lemma ID Gloss (Dutch),Lemma ID Gloss (English),Annotation ID Gloss (Dutch),\
-                Annotation ID Gloss (English),Senses (Dutch),Strong Hand,Relative Orientation: Movement,\
-                Phonology Other\n\
-                7,PAARD,HORSE,PAARD-A,HORSE-A,1. paard,Curved B,-,-\n\
-                8,PAARD,HORSE,PAARD-B,HORSE-B,-,S,Palm,hidden\n";
-    let (lexicon, _) = read(text);
-    let glosses: Vec<&str> = lexicon.entries.iter().map(|it| it.gloss.as_str()).collect();
-    assert_eq!(glosses, ["PAARD-A", "PAARD-B"], "they share a lemma");
-    let of = |language: &str, text: &str| (language.to_owned(), text.to_owned());
-    assert_eq!(
-        lexicon.entries[0].translations,
-        [
-            of("nl", "PAARD"),
-            of("en", "HORSE"),
-            of("en", "HORSE-A"),
-            of("nl", "1. paard")
-        ]
-    );
-    assert_eq!(
-        lexicon.entries[1].translations.len(),
-        3,
-        "a dash is no sense"
-    );
-    assert_eq!(
-        codings(&lexicon, 1),
-        [
-            "dominant.configuration=S",
-            "orientation.relative-movement=Palm"
-        ]
-    );
-    let attributes = |entry: usize| lexicon.entries[entry].attributes.clone();
-    assert_eq!(attributes(0), [of("Signbank ID", "7")]);
-    assert_eq!(
-        attributes(1),
-        [of("Signbank ID", "8"), of("Phonology Other", "hidden")]
-    );
 }

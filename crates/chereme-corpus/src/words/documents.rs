@@ -260,6 +260,18 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "la ligne n’a pas de {what} ; elle a été laissée de côté",
     ),
     (
+        "rows without {title} that {other} names: {n}",
+        "lignes sans {title} que nomme {other} : {n}",
+    ),
+    (
+        "cells of {title} that name handshapes, such as {cell}, were taken for these: {n}",
+        "cases de {title} qui nomment des configurations, comme {cell}, prises pour celles-ci : {n}",
+    ),
+    (
+        "search for them as {query}, and for the others as {other}",
+        "cherchez-les par {query}, et les autres par {other}",
+    ),
+    (
         "the first row holds HamNoSys: it was taken for a sign, not for titles",
         "la première ligne contient du HamNoSys : elle a été prise pour un signe, pas pour des titres",
     ),

@@ -196,8 +196,45 @@ const MEASURES: [&str; 24] = [
     "rank",
 ];
 
-/// Returns the inferred meaning of each column. One gloss column names the sign; further ones are translations.
-/// Of columns with unknown titles, those with HamNoSys's symbols are notation, the others attributes; if no column is
+/// Words that make a title that of something else than the component it names: of its change, of a picture or a file.
+const ASIDE: [&str; 18] = [
+    "change",
+    "changement",
+    "image",
+    "images",
+    "picture",
+    "pictures",
+    "photo",
+    "foto",
+    "bild",
+    "icon",
+    "video",
+    "film",
+    "movie",
+    "link",
+    "lien",
+    "url",
+    "file",
+    "fichier",
+];
+
+/// Returns whether a word of a title names a later morpheme, as `M2` or `morpheme2` do.
+fn is_later_morpheme(word: &str) -> bool {
+    let number = word
+        .strip_prefix("morpheme")
+        .or_else(|| word.strip_prefix('m'));
+    number.is_some_and(|it| it.parse::<u8>().is_ok_and(|number| number > 1))
+}
+
+/// The columns of a table with their meanings.
+pub(super) struct Columns {
+    pub(super) columns: Vec<Column>,
+    /// The places of the columns that name signs: a row without a cell in one of them is named by the next.
+    pub(super) names: Vec<usize>,
+}
+
+/// Returns the inferred meaning of each column. One gloss column names the sign; further ones are translations, and name
+/// the rows without a gloss. Of columns with unknown titles, those with HamNoSys's symbols are notation, the others attributes; if no column is
 /// titled a gloss, one titled a name or a word is the gloss, else the first one next to the notation. A column of
 /// measurements is an attribute even if its title names a component.
 pub(super) fn meanings(
@@ -205,7 +242,7 @@ pub(super) fn meanings(
     rows: &[Row],
     mapping: &Mapping,
     findings: &mut Findings,
-) -> Vec<Column> {
+) -> Columns {
     let mut columns: Vec<Column> = header.iter().map(|title| column(title, mapping)).collect();
     state_hands(&mut columns);
     for (at, column) in columns.iter_mut().enumerate() {
@@ -223,19 +260,19 @@ pub(super) fn meanings(
             "its cells are numbers that measure".clone_into(&mut column.why);
         }
     }
-    let named = gloss_column(&columns);
-    for (at, column) in columns.iter_mut().enumerate() {
-        if let Meaning::Gloss { language } = &column.meaning
-            && named != Some(at)
-        {
+    let mut names = gloss_columns(&columns, rows);
+    for at in names.iter().skip(1) {
+        let column = &mut columns[*at];
+        if let Meaning::Gloss { language } = &column.meaning {
             column.meaning = Meaning::Translation {
                 language: language.clone(),
             };
         }
     }
-    if named.is_none()
+    if names.is_empty()
         && let Some(at) = likely_gloss(&columns)
     {
+        names.push(at);
         let column = &mut columns[at];
         column.meaning = Meaning::Gloss { language: None };
         column.confidence = 0.4;
@@ -263,7 +300,7 @@ pub(super) fn meanings(
     }
     report_attributes(&columns, findings);
     report_shared(&columns, findings);
-    columns
+    Columns { columns, names }
 }
 
 /// Gives columns of a hand's components the hand that their title states: `Configuration MG` is that of the left hand.
@@ -340,21 +377,36 @@ fn second_meaning(meaning: &Meaning) -> Meaning {
     }
 }
 
-/// Returns the column that names the sign: the first gloss column of a mapping, otherwise the first one whose title
-/// speaks of annotation, because several signs of Signbank share a lemma, otherwise the first gloss column.
-fn gloss_column(columns: &[Column]) -> Option<usize> {
-    let glosses = || {
-        let gloss = |it: &(usize, &Column)| matches!(it.1.meaning, Meaning::Gloss { .. });
-        columns.iter().enumerate().filter(gloss)
-    };
-    let mapped = glosses().find(|(_, column)| column.confidence >= 1.0);
+/// Returns the columns of glosses, first the one that names the sign: the first one of a mapping, otherwise the first one
+/// whose title speaks of annotation, because several signs of Signbank share a lemma, otherwise the first one. A column
+/// that many rows leave empty comes after a fuller one, unless a mapping names it.
+fn gloss_columns(columns: &[Column], rows: &[Row]) -> Vec<usize> {
     let annotation = |title: &str| {
         let words = normal(&with_parted_words(title));
         words.split(' ').any(|word| word == "annotation")
     };
-    let annotated = || glosses().find(|(_, column)| annotation(&column.title));
-    let found = mapped.or_else(annotated).or_else(|| glosses().next());
-    found.map(|(at, _)| at)
+    let tenths = |at: usize| {
+        let filled = rows.iter().filter(|row| is_filled(row, at)).count();
+        filled * 10 / rows.len().max(1)
+    };
+    let columns = columns.iter().enumerate();
+    let mut found: Vec<_> = columns
+        .filter(|(_, column)| matches!(column.meaning, Meaning::Gloss { .. }))
+        .map(|(at, column)| {
+            let mapped = column.confidence >= 1.0;
+            // Eight rows of ten are enough.
+            let empty = if mapped { 0 } else { 8 - tenths(at).min(8) };
+            (!mapped, empty, !annotation(&column.title), at)
+        })
+        .collect();
+    found.sort_unstable();
+    found.into_iter().map(|(.., at)| at).collect()
+}
+
+/// Returns whether a row has a cell with text in a column.
+pub(super) fn is_filled(row: &Row, column: usize) -> bool {
+    let cell = row.cells.get(column);
+    cell.is_some_and(|cell| !cell.trim().is_empty())
 }
 
 /// Reports the columns that become attributes, all in one finding.
@@ -454,7 +506,7 @@ fn with_parted_words(title: &str) -> String {
 }
 
 /// Returns the meaning of a column by its title, as written or by the words that capital letters part.
-fn column(title: &str, mapping: &Mapping) -> Column {
+pub(super) fn column(title: &str, mapping: &Mapping) -> Column {
     let whole = column_by(title, title, mapping);
     let parted = with_parted_words(title);
     if !whole.why.is_empty() || parted == title {
@@ -514,7 +566,25 @@ fn column_by(title: &str, spelled: &str, mapping: &Mapping) -> Column {
             known.len(),
         )
     });
+    let aside = |known: &String| {
+        let named = |word: &&&str| known.split(' ').any(|own| own == **word);
+        let other = |word: &&&str| ASIDE.contains(word) || is_later_morpheme(word);
+        words
+            .iter()
+            .filter(other)
+            .find(|word| !named(word))
+            .copied()
+    };
     match longest {
+        Some(known) if let Some(word) = aside(known) => Column {
+            meaning: Meaning::Attribute,
+            ..column(
+                None,
+                None,
+                0.6,
+                format!("{word:?} beside {known:?} in its title"),
+            )
+        },
         Some(known) => column(
             TABLE.get(known),
             name,
@@ -568,94 +638,4 @@ fn meaning(target: &Target, language: Option<String>) -> Meaning {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Returns the meanings of the titles of a table with one row.
-    fn meant(titles: &[&str], cells: &[&str]) -> (Vec<String>, Vec<String>) {
-        let own = |texts: &[&str]| texts.iter().map(|&it| it.to_owned()).collect::<Vec<_>>();
-        let rows = [Row {
-            line: 2,
-            cells: own(cells),
-        }];
-        let mut findings = Findings::default();
-        let columns = meanings(&own(titles), &rows, &Mapping::default(), &mut findings);
-        let said = findings.finish().into_iter().map(|it| it.message);
-        let meant = columns.iter().map(|column| column.meaning.to_string());
-        (meant.collect(), said.collect())
-    }
-
-    #[test]
-    fn titles_state_the_hand_of_a_component() {
-        for (title, meaning) in [
-            ("Configuration MD", "right.configuration"),
-            ("Configuration MG", "left.configuration"),
-            ("Handshape NDH", "weak.configuration"),
-            ("Handshape DH final", "final.dominant.configuration"),
-            ("Final Handshape (left)", "final.left.configuration"),
-            ("Weak Hand Location", "weak.placement"),
-            ("Weak Hand", "weak.configuration"),
-            ("Orientation paume MG", "left.orientation.palm"),
-            ("Sign Type", "configuration.handedness"),
-            ("Location", "placement"),
-        ] {
-            let (meant, said) = meant(&["gloss", title], &["A", "x"]);
-            assert_eq!(meant[1], meaning, "{title}");
-            assert!(said.is_empty(), "{said:?}");
-        }
-        // With a weak hand MND, MD is the dominant one.
-        let (meant, _) = meant(
-            &["Glose", "Configuration MD", "Configuration MND"],
-            &["A", "x", "y"],
-        );
-        assert_eq!(
-            meant,
-            ["gloss", "dominant.configuration", "weak.configuration"]
-        );
-    }
-
-    #[test]
-    fn two_columns_of_one_component_are_reported() {
-        let (_, said) = meant(&["gloss", "Handshape", "Handform"], &["A", "U", "V"]);
-        assert!(
-            said[0].contains("\"Handshape\" and \"Handform\""),
-            "{said:?}"
-        );
-        // The remedy names what a mapping takes.
-        for (title, second) in [
-            ("configuration", "weak.configuration"),
-            ("final.dominant.configuration", "final.weak.configuration"),
-            ("left.configuration", "attribute"),
-            ("configuration.handedness", "attribute"),
-            ("nonmanual.mouth", "attribute"),
-        ] {
-            let own = second_meaning(&column(title, &Mapping::default()).meaning);
-            assert_eq!(own.to_string(), second, "{title}");
-            let mapping = format!(r#"{{"columns": {{"x": "{own}"}}}}"#);
-            assert!(Mapping::from_json(&mapping).is_ok(), "{mapping}");
-        }
-    }
-
-    #[test]
-    fn numbers_are_no_translations() {
-        let titles = ["gloss", "SignOnset(ms)", "SignLength(ms)", "Meaning 2"];
-        let (meant, _) = meant(&titles, &["A", "500", "700", "snail"]);
-        assert_eq!(meant, ["gloss", "attribute", "attribute", "translation"]);
-    }
-
-    #[test]
-    fn the_built_in_table_is_complete_and_each_title_has_one_meaning() {
-        let text = include_str!("../../../../schema/column_words.json");
-        let file: BTreeMap<String, Vec<String>> = serde_json::from_str(text).expect("a table");
-        let titles: Vec<&String> = file.values().flatten().collect();
-        assert!(
-            titles.iter().all(|title| normal(title) == **title),
-            "titles are folded words"
-        );
-        assert_eq!(
-            parse(text).expect("a table").len(),
-            titles.len(),
-            "a title stands twice"
-        );
-    }
-}
+mod tests;

@@ -1,8 +1,8 @@
 //! Tables of lexicon codings: one sign per row, one component per column.
 //!
 //! A column's component is guessed from its title (`schema/column_words.json`) or given by a [`Mapping`]. Compound
-//! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone; `-`
-//! and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
+//! cells are split: `neutral space > head` is two successive values, `S + W` two at once, `>S` a final value alone. Beside
+//! a final value of another column a value is the initial one. `-` and `N/A` are not applicable, `?` is unclear. A column of HamNoSys, recognised by its title or its symbols, gives
 //! the sign's notation. A table may also come as JSON: an array of objects, an object whose keys are the glosses, JSON
 //! Lines, or an export of SLP-AA. The original cells are kept together with their meanings, so that [`write()`]
 //! reproduces the table.
@@ -24,6 +24,7 @@ mod slpaa;
 mod values;
 
 use chereme_sign::Remedy;
+use columns::Columns;
 pub use columns::{Column, Meaning};
 
 use crate::finding::Finding;
@@ -38,6 +39,7 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io;
 use values::EmptyCells;
+pub use values::is_value;
 
 /// A table of signs with their component values.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -125,7 +127,7 @@ pub struct Inventory {
 /// The first row determines the delimiter (tab, comma, semicolon, bar), or a line `sep=;` above it; lines of one cell
 /// above the titles are left out with a finding. Quotes, byte-order marks, Windows
 /// line ends and UTF-16 are understood; bytes that are not UTF-8 are read as Windows-1252. Rows without a
-/// gloss are left out with a finding; findings also name rows of another width, repeated glosses, columns
+/// gloss are named by the next column of glosses, or left out, with a finding; findings also name rows of another width, repeated glosses, columns
 /// that become attributes and values that look like slips.
 ///
 /// # Errors
@@ -146,6 +148,12 @@ pub fn read(bytes: &[u8], mapping: &Mapping) -> Result<(Lexicon, Vec<Finding>), 
         }
     };
     interpret(table, mapping, findings)
+}
+
+/// Returns the meaning of a column with this title, as far as the title says it.
+#[must_use]
+pub fn meaning_of_title(title: &str) -> Meaning {
+    columns::column(title, &Mapping::default()).meaning
 }
 
 /// Returns the number of lines above the titles, such as a heading and its date: lines of few cells, if one of the titles
@@ -205,11 +213,9 @@ fn interpret(
     mut findings: Findings,
 ) -> Result<(Lexicon, Vec<Finding>), TableError> {
     without_titles(&mut table, &mut findings);
-    let columns = columns::meanings(&table.header, &table.rows, mapping, &mut findings);
-    let gloss = columns
-        .iter()
-        .position(|it| matches!(it.meaning, Meaning::Gloss { .. }));
-    let gloss = gloss.ok_or_else(|| TableError::Missing {
+    let Columns { columns, names } =
+        columns::meanings(&table.header, &table.rows, mapping, &mut findings);
+    let gloss = *names.first().ok_or_else(|| TableError::Missing {
         found: listed(&table.header),
         needed: "a gloss",
         remedy: "call a column \"gloss\", or name it in a mapping: {\"columns\": {\"NAME\": \"gloss\"}}",
@@ -217,9 +223,11 @@ fn interpret(
     let mut lines: BTreeMap<String, u64> = BTreeMap::new();
     let mut empty = EmptyCells::default();
     let mut entries: Vec<LexiconEntry> = Vec::with_capacity(table.rows.len());
+    let mut stand_ins: BTreeMap<usize, (u64, u64)> = BTreeMap::new();
     for row in table.rows {
-        let (line, name) = (row.line, row.cells[gloss].trim());
-        if name.is_empty() {
+        let line = row.line;
+        let filled = names.iter().find(|at| columns::is_filled(&row, **at));
+        let Some(at) = filled.copied() else {
             findings.add("rows without a gloss", || {
                 Finding::warning(
                     line,
@@ -227,7 +235,11 @@ fn interpret(
                 )
             });
             continue;
+        };
+        if at != gloss {
+            stand_ins.entry(at).or_insert((0, line)).0 += 1;
         }
+        let name = row.cells[at].trim();
         let first = *lines.entry(name.to_owned()).or_insert(line);
         if first != line {
             findings.add("glosses given twice", || {
@@ -251,7 +263,12 @@ fn interpret(
         if columns.iter().zip(&row.cells).any(garbled) {
             findings.add("symbols in a wrong encoding", || mended_finding(line));
         }
-        entries.push(entry(row, gloss, &columns, &mut empty));
+        entries.push(entry(row, at, &columns, &mut empty));
+    }
+    for (at, (count, line)) in stand_ins {
+        let (title, other) = (&columns[gloss].title, &columns[at].title);
+        let message = format!("rows without {title:?} that {other:?} names: {count}");
+        findings.push(Finding::note(line, message));
     }
     let lexicon = Lexicon {
         columns,
@@ -261,6 +278,7 @@ fn interpret(
     if let Some(finding) = empty.finding() {
         findings.push(finding);
     }
+    shapes_of_changes(&lexicon, &mut findings);
     slips(&lexicon, &mut findings);
     Ok((lexicon, findings.finish()))
 }
@@ -365,8 +383,60 @@ fn entry(row: Row, gloss: usize, columns: &[Column], empty: &mut EmptyCells) -> 
             _ => {}
         }
     }
+    begin_before_final(&mut entry.codings);
     entry.cells = row.cells;
     entry
+}
+
+/// Makes values without a phase initial where another column gives the same field a final reading, and none an initial
+/// one.
+fn begin_before_final(codings: &mut [Coding]) {
+    let field = |it: &Coding| (it.hand, it.component, it.feature.clone());
+    let fields = |phase: Phase| -> Vec<_> {
+        let own = codings.iter().filter(|it| it.phase == Some(phase));
+        own.map(field).collect()
+    };
+    let (begun, ended) = (fields(Phase::Initial), fields(Phase::Final));
+    if ended.is_empty() {
+        return;
+    }
+    for coding in codings.iter_mut().filter(|it| it.phase.is_none()) {
+        let field = field(coding);
+        if ended.contains(&field) && !begun.contains(&field) {
+            coding.phase = Some(Phase::Initial);
+        }
+    }
+}
+
+/// Reports the handshapes in columns of changes, such as `>S`.
+fn shapes_of_changes(lexicon: &Lexicon, findings: &mut Findings) {
+    for (at, column) in lexicon.columns.iter().enumerate() {
+        let Meaning::Coding {
+            feature: Some(feature),
+            ..
+        } = &column.meaning
+        else {
+            continue;
+        };
+        let entries = lexicon.entries.iter().filter_map(|entry| {
+            let mut own = entry.codings.iter().filter(|it| it.column == at);
+            let shape = own.find(|it| it.feature.as_ref() != Some(feature))?;
+            Some((entry, shape))
+        });
+        let entries: Vec<_> = entries.collect();
+        if let Some((entry, shape)) = entries.first() {
+            let (title, cell, count) = (&column.title, &entry.cells[at], entries.len());
+            let message = format!(
+                "cells of {title:?} that name handshapes, such as {cell:?}, were taken for these: {count}"
+            );
+            findings.push(Finding::note(entry.line, message).with_remedy(format!(
+                "search for them as {}={:?}, and for the others as {}.{feature}=*",
+                shape.field(),
+                shape.raw,
+                shape.component
+            )));
+        }
+    }
 }
 
 /// Reports rare values that differ from a common one by case or by one letter after the first.

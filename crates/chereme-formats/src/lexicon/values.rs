@@ -31,9 +31,19 @@ const EMPTY: [&str; 13] = [
     "#DIV/0!", "#NUM!",
 ];
 
-/// Returns whether a piece of a cell is what a program writes for no value.
-fn is_empty(piece: &str) -> bool {
-    EMPTY.contains(&piece)
+/// Returns whether a piece of a cell is what a program writes for no value. `None` of a movement or a contact is a value:
+/// there is no path, or no contact.
+fn is_empty(piece: &str, whole: &Coding) -> bool {
+    let none =
+        whole.component == Component::Movement || whole.feature.as_deref() == Some("contact");
+    EMPTY.contains(&piece) && !(piece == "None" && none)
+}
+
+/// Returns whether a cell of a component holds a value, rather than nothing, `NA` or `?`.
+#[must_use]
+pub fn is_value(cell: &str) -> bool {
+    let cell = cell.trim();
+    !cell.is_empty() && !EMPTY.contains(&cell) && matches!(reading(cell), Reading::Value(_))
 }
 
 /// The cells that hold what a program writes for no value: each such text with its number and its first line.
@@ -100,7 +110,7 @@ pub(super) fn split(
             (_, n) => Some(Phase::Middle(u8::try_from(n).unwrap_or(u8::MAX))),
         };
         for piece in pieces(part, whole) {
-            if is_empty(piece) {
+            if is_empty(piece, whole) {
                 empty.count(piece, line);
                 continue;
             }
