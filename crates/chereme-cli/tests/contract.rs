@@ -154,8 +154,16 @@ fn a_search_is_saved_run_again_and_deleted() {
     assert_eq!(first["notes"][0], "saved: @two signs stands for this query");
     let again = desk.json(&format!("search {path} '@Two Signs'"));
     assert_eq!(again["hits"], first["hits"]);
+    let other = format!("search {path} gloss=CHAT --keep 'Two signs'");
+    assert!(
+        !desk.run(&other).status.success(),
+        "another search has the name"
+    );
     let listed = desk.json(&format!("list {path} searches"));
     assert_eq!(listed["rows"][0]["query"], "gloss=CHAT or gloss=BOL");
+    assert!(desk.run(&format!("{other} --replace")).status.success());
+    let listed = desk.json(&format!("list {path} searches"));
+    assert_eq!(listed["rows"][0]["query"], "gloss=CHAT");
     let gone = desk.json(&format!("search {path} --forget 'two signs'"));
     assert_eq!(gone["name"], "two signs");
     assert!(desk.run(&format!("undo {path}")).status.success());

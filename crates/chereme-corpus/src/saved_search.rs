@@ -22,32 +22,52 @@ impl Corpus {
         searches(self.store.read())
     }
 
-    /// Saves searches under their names; a search replaces the one that had its name.
+    /// Saves searches under their names, as they are written; a search replaces the one that had its name.
     ///
     /// # Errors
-    /// Fails if a name is empty or a query cannot be understood; nothing is saved then.
+    /// Fails if a name is empty, a query cannot be understood, or searches would use each other in a circle; nothing is
+    /// saved then.
     pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> Result<()> {
         self.store.operation("keep search", |connection| {
+            let mut names = Vec::with_capacity(searches.len());
             for search in searches {
                 let search = KeptSearch {
                     name: named(&search.name)?,
-                    query: whole(connection, &search.query)?,
+                    query: search.query.clone(),
                 };
                 match found(connection, &search.name)? {
                     Some((_, old)) if old == search => {}
                     Some((id, _)) => rows::update(connection, id, &search)?,
                     None => rows::insert(connection, &search)?,
                 }
+                parsed(connection, &format!("@{}", search.name))?;
+                names.push(search.name);
             }
-            let names: Vec<&str> = searches.iter().map(|it| it.name.trim()).collect();
             Ok(((), names.join(", ")))
         })
+    }
+
+    /// Saves a search under a name that no other search has.
+    ///
+    /// # Errors
+    /// Fails if another search is saved under the name, and as [`keep_searches`](Self::keep_searches) does.
+    pub fn keep_new_search(&mut self, search: &KeptSearch) -> Result<()> {
+        match found(self.store.read(), &named(&search.name)?)? {
+            Some((_, old)) if old.query != search.query => {
+                let text = format!("another search is saved as {:?}", old.name);
+                let remedy = Remedy::command(
+                    "give it another name, or replace that one: `chereme search CORPUS --keep NAME QUERY --replace`",
+                );
+                Err(Error::wrong(text).at(old.query).advise(remedy))
+            }
+            _ => self.keep_searches(std::slice::from_ref(search)),
+        }
     }
 
     /// Gives a saved search another name.
     ///
     /// # Errors
-    /// Fails if no search has that name, or if the new name is empty or taken.
+    /// Fails if no search has that name, if another one uses it, or if the new name is empty or taken.
     pub fn rename_search(&mut self, from: &str, to: &str) -> Result<()> {
         self.store.operation("rename search", |connection| {
             let (id, old) = there(connection, from)?;
@@ -60,6 +80,9 @@ impl Corpus {
                 let error = Error::wrong(text).at(new.name);
                 return Err(error.advise("give it another name"));
             }
+            if fold(&new.name) != fold(&old.name) {
+                check_unused(connection, &old)?;
+            }
             if new != old {
                 rows::update(connection, id, &new)?;
             }
@@ -70,10 +93,11 @@ impl Corpus {
     /// Removes a saved search, and returns it.
     ///
     /// # Errors
-    /// Fails if no search has that name.
+    /// Fails if no search has that name, or if another one uses it.
     pub fn forget_search(&mut self, name: &str) -> Result<KeptSearch> {
         self.store.operation("forget search", |connection| {
             let (id, search) = there(connection, name)?;
+            check_unused(connection, &search)?;
             rows::delete(connection, id)?;
             let summary = search.name.clone();
             Ok((search, summary))
@@ -89,48 +113,97 @@ pub(crate) fn searches(connection: &Connection) -> Result<Vec<KeptSearch>> {
 
 /// The depth to which saved searches may name one another.
 const MOST_INSIDE: usize = 16;
+/// How many saved searches a query may use, those that others use counted each time.
+const MOST_USES: usize = 1000;
+
+/// The saved searches that a query uses.
+#[derive(Default)]
+struct SearchesInUse {
+    /// Those around the place that is read, outermost first.
+    around: Vec<KeptSearch>,
+    /// How many there are in all so far.
+    count: usize,
+}
 
 /// Reads a query, and replaces each `@NAME` by the search that it stands for.
 ///
 /// # Errors
-/// Fails if it cannot be understood, or a saved search does not exist or names itself.
+/// Fails if it cannot be understood, also with the saved searches written out, or a saved search does not exist or names
+/// itself.
 pub(crate) fn parsed(connection: &Connection, query: &str) -> Result<Query> {
-    parsed_inside(connection, query, 0)
+    let mut used = SearchesInUse::default();
+    let parsed = parsed_inside(connection, query, &mut used)?;
+    if used.count > 0 {
+        let text = parsed.to_string();
+        Query::parse(&text).map_err(|error| wrong(&text, &error))?;
+    }
+    Ok(parsed)
 }
 
-fn parsed_inside(connection: &Connection, query: &str, inside: usize) -> Result<Query> {
-    if inside > MOST_INSIDE {
-        let text = format!("more than {MOST_INSIDE} saved searches use each other");
-        return Err(Error::wrong(text)
-            .at(query)
-            .advise("keep searches that do not name each other in a circle"));
-    }
+fn parsed_inside(connection: &Connection, query: &str, used: &mut SearchesInUse) -> Result<Query> {
     // A name with blanks needs no quotes if it is the whole query.
     if let Some(name) = query.trim().strip_prefix('@')
         && let Some((_, search)) = found(connection, name)?
     {
-        return parsed_inside(connection, &search.query, inside + 1);
+        return expanded(connection, search, used);
     }
     let parsed = Query::parse(query).map_err(|error| wrong(query, &error))?;
     parsed.with_saved(&mut |saved| {
         let (_, search) = there(connection, &saved.name)?;
-        parsed_inside(connection, &search.query, inside + 1)
+        expanded(connection, search, used)
     })
 }
 
-/// Returns the text of a query with all names of saved searches replaced.
-fn whole(connection: &Connection, query: &str) -> Result<String> {
-    let filled = parsed(connection, query)?;
-    match Query::parse(query) {
-        Ok(own) if own == filled => Ok(query.to_owned()),
-        _ => Ok(match query.trim().strip_prefix('@') {
-            Some(name) => match found(connection, name)? {
-                Some((_, search)) => search.query,
-                None => filled.to_string(),
-            },
-            None => filled.to_string(),
-        }),
+/// Returns the query that a saved search stands for.
+fn expanded(
+    connection: &Connection,
+    search: KeptSearch,
+    used: &mut SearchesInUse,
+) -> Result<Query> {
+    let is_circle = used.around.contains(&search);
+    let text = search.query.clone();
+    used.around.push(search);
+    used.count += 1;
+    if is_circle || used.around.len() > MOST_INSIDE {
+        let names = used.around.iter().map(|it| format!("@{}", it.name));
+        let names: Vec<String> = names.collect();
+        let message = format!("saved searches use each other: {}", names.join(" > "));
+        return Err(Error::wrong(message)
+            .at(text)
+            .advise("keep searches that do not name each other in a circle"));
     }
+    if used.count > MOST_USES {
+        let message = format!("the query uses more than {MOST_USES} saved searches");
+        return Err(Error::wrong(message).at(text).advise("use fewer of them"));
+    }
+    let query = parsed_inside(connection, &text, used)?;
+    used.around.pop();
+    Ok(query)
+}
+
+/// Fails if another saved search uses this one.
+fn check_unused(connection: &Connection, search: &KeptSearch) -> Result<()> {
+    let own = fold(&search.name);
+    for other in searches(connection)? {
+        let mut uses = other
+            .query
+            .trim()
+            .strip_prefix('@')
+            .is_some_and(|name| fold(name.trim()) == own);
+        if let Ok(query) = Query::parse(&other.query) {
+            let whole = query.clone();
+            _ = query.with_saved(&mut |saved| {
+                uses |= fold(&saved.name) == own;
+                Ok::<_, std::convert::Infallible>(whole.clone())
+            });
+        }
+        if uses {
+            let text = format!("the saved search {:?} uses @{}", other.name, search.name);
+            let remedy = "change or delete that one first";
+            return Err(Error::wrong(text).at(other.query).advise(remedy));
+        }
+    }
+    Ok(())
 }
 
 fn named(name: &str) -> Result<String> {
@@ -272,8 +345,11 @@ mod tests {
             .expect("kept");
         assert_eq!(
             corpus.kept_searches().expect("read")[1].query,
-            "duration<0.8s"
+            "@petits gestes",
+            "as it was written"
         );
+        let answer = corpus.search("@same", &options).expect("found");
+        assert_eq!(answer.query, "duration<0.8s");
         let error = corpus.search("@petit gestes", &options).expect_err("none");
         assert!(
             error.to_string().contains("did you mean \"petits gestes\""),
@@ -316,15 +392,59 @@ mod tests {
         let error = corpus.search("not @chim", &SearchOptions::default());
         let error = error.expect_err("not there");
         assert!(error.to_string().contains("did you mean"), "{error}");
-        // A saved search stands for itself: it does not change with those from which it was composed.
-        let both = [kept("both", "@chin gloss=A")];
-        corpus.keep_searches(&both).expect("kept");
-        corpus.forget_search("chin").expect("forgotten");
-        let answer = corpus.search("@both", &SearchOptions::default());
-        assert_eq!(
-            answer.expect("found").query,
-            "(placement=chin or placement=cheek) gloss=A"
-        );
         assert!(corpus.keep_searches(&[kept("x", "@x")]).is_err());
+    }
+
+    #[test]
+    fn a_saved_search_follows_those_that_it_uses() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let meant = |corpus: &mut Corpus, query: &str| {
+            let answer = corpus.search(query, &SearchOptions::default());
+            answer.expect(query).query
+        };
+        let chin = kept("chin", "placement=chin");
+        let both = kept("both", "@chin gloss=A");
+        let all = [chin.clone(), both.clone(), kept("my both", "@both")];
+        corpus.keep_searches(&all).expect("kept");
+        assert_eq!(meant(&mut corpus, "@both"), "placement=chin gloss=A");
+        let wider = kept("chin", "placement=chin or placement=cheek");
+        let taken = corpus.keep_new_search(&wider).expect_err("taken");
+        assert!(
+            taken.to_string().contains("another search is saved"),
+            "{taken}"
+        );
+        corpus.keep_new_search(&chin).expect("the same query again");
+        corpus.keep_searches(&[wider]).expect("replaced");
+        for query in ["@both", "@my both"] {
+            let wanted = "(placement=chin or placement=cheek) gloss=A";
+            assert_eq!(meant(&mut corpus, query), wanted, "{query}");
+        }
+        for name in ["chin", "both"] {
+            let used = corpus.forget_search(name).expect_err(name);
+            assert!(used.to_string().contains("uses @"), "{used}");
+            assert!(corpus.rename_search(name, "other").is_err(), "{name}");
+        }
+        corpus.rename_search("chin", "Chin").expect("the same name");
+        let circle = corpus.keep_searches(&[kept("chin", "not @my both")]);
+        let circle = circle.expect_err("a circle").to_string();
+        assert!(
+            circle.contains("@chin > @my both > @both > @chin"),
+            "{circle}"
+        );
+        assert_eq!(
+            corpus.kept_searches().expect("read")[0],
+            both,
+            "nothing was saved"
+        );
+        // Each uses the one before ten times.
+        let mut last = "gloss=A".to_owned();
+        let grown = (0..9).try_for_each(|at| {
+            let name = format!("s{at}");
+            let query = vec![last.as_str(); 10].join(" or ");
+            last = format!("@{name}");
+            corpus.keep_searches(&[kept(&name, &query)])
+        });
+        assert!(grown.is_err_and(|error| error.to_string().contains("more than 1000")));
     }
 }

@@ -26,9 +26,12 @@ pub(crate) struct Args {
     /// The query; all of its conditions must hold. @NAME stands for a saved search
     #[arg(required_unless_present = "forget", value_name = "QUERY")]
     query: Vec<String>,
-    /// Save the query in the corpus as @NAME; an earlier one of that name is replaced
+    /// Save the query in the corpus as @NAME
     #[arg(long, value_name = "NAME")]
     keep: Option<String>,
+    /// Replace the search that is saved under that name
+    #[arg(long, requires = "keep")]
+    replace: bool,
     /// Delete the saved search NAME
     #[arg(long, value_name = "NAME", conflicts_with_all = ["query", "keep"])]
     forget: Option<String>,
@@ -143,7 +146,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         answer.notes.push(format!("did you mean {meant}?"));
     }
     if let Some(name) = &args.keep {
-        answer.notes.push(keep(&mut corpus, name, query)?);
+        answer.notes.push(keep(&mut corpus, args, name, query)?);
     }
     let rows: Vec<Vec<String>> = answer.hits.iter().map(cells).collect();
     if !rows.is_empty() {
@@ -249,10 +252,14 @@ pub(super) fn separated_line(cells: &[String], tabs: bool) -> String {
 }
 
 /// Saves a query in the corpus, and reports its name.
-fn keep(corpus: &mut Corpus, name: &str, query: String) -> Result<String> {
+fn keep(corpus: &mut Corpus, args: &Args, name: &str, query: String) -> Result<String> {
     let name = name.trim().trim_start_matches('@').to_owned();
     let said = format!("saved: @{name} stands for this query");
-    corpus.keep_searches(&[KeptSearch { name, query }])?;
+    let search = KeptSearch { name, query };
+    match args.replace {
+        true => corpus.keep_searches(&[search])?,
+        false => corpus.keep_new_search(&search)?,
+    }
     Ok(said)
 }
 
@@ -305,8 +312,12 @@ pub(super) const WORDS: Words = Words {
             "La requête ; toutes ses conditions doivent être vraies. @NOM est une recherche enregistrée",
         ),
         (
-            "Save the query in the corpus as @NAME; an earlier one of that name is replaced",
-            "Enregistrer la requête dans le corpus sous @NOM ; une autre de ce nom est remplacée",
+            "Save the query in the corpus as @NAME",
+            "Enregistrer la requête dans le corpus sous @NOM",
+        ),
+        (
+            "Replace the search that is saved under that name",
+            "Remplacer la recherche enregistrée sous ce nom",
         ),
         (
             "Delete the saved search NAME",

@@ -365,6 +365,8 @@ pub(crate) const CASES: &[Case] = &[
     ("map @c --by placement --to @d/map.svg", 0, &["/signs/0/x"]),
     ("map @c --by nosuch", 2, ERROR),
     ("search @c gloss=CHAT --keep cats", 0, HITS),
+    ("search @c gloss=BOL --keep cats --replace", 0, HITS),
+    ("search @c gloss=BOL --replace", 2, ERROR),
     ("search @c gloss=CHAT --keep ''", 1, ERROR),
     ("search @c @kept", 1, ERROR),
     ("search @c --forget cats", 1, ERROR),

@@ -127,8 +127,25 @@ pub(super) const ASKING: &[(&str, &str)] = &[
         "une autre recherche est enregistrée sous {name}",
     ),
     (
-        "more than {n} saved searches use each other",
-        "plus de {n} recherches enregistrées s’appellent l’une l’autre",
+        "saved searches use each other: {names}",
+        "des recherches enregistrées s’appellent l’une l’autre : {names}",
+    ),
+    (
+        "the query uses more than {n} saved searches",
+        "la requête appelle plus de {n} recherches enregistrées",
+    ),
+    ("use fewer of them", "appelez-en moins"),
+    (
+        "the saved search {other} uses @{name}",
+        "la recherche enregistrée {other} appelle @{name}",
+    ),
+    (
+        "change or delete that one first",
+        "modifiez ou supprimez d’abord celle-là",
+    ),
+    (
+        "give it another name, or replace that one: {command}",
+        "donnez-lui un autre nom, ou remplacez celle-là : {command}",
     ),
     (
         "keep searches that do not name each other in a circle",
