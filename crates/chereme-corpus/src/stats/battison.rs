@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
 use chereme_analysis::statistics::wilson;
+use chereme_formats::lexicon::is_value;
 use chereme_sign::text::fold;
 use serde::{Deserialize, Serialize};
 
@@ -178,7 +179,7 @@ fn condition(
     of: SignType,
     unmarked: &[String],
 ) -> HandCondition {
-    let has_both = |row: &&Form| !row.cells[strong].is_empty() && !row.cells[weak].is_empty();
+    let has_both = |row: &&Form| is_value(&row.cells[strong]) && is_value(&row.cells[weak]);
     let given: Vec<&Form> = rows.iter().copied().filter(has_both).collect();
     let is_unmarked = |row: &&Form| unmarked.contains(&row.cells[weak]);
     let is_same = |row: &&Form| row.cells[strong] == row.cells[weak];

@@ -3,6 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
+use chereme_formats::lexicon::is_value;
 use chereme_sign::inventory;
 use chereme_sign::text::fold;
 use serde::Serialize;
@@ -161,7 +162,7 @@ pub(super) fn of_hands(forms: &Forms) -> Vec<StatsFinding> {
         let rows = forms.rows.iter();
         rows.filter(|row| test(row, roles.type_of(row))).collect()
     };
-    let given = |row: &Form, at: Option<usize>| at.is_some_and(|at| !row.cells[at].is_empty());
+    let given = |row: &Form, at: Option<usize>| at.is_some_and(|at| is_value(&row.cells[at]));
     let one_handed = Some(SignType::OneHanded);
     let mut findings = Vec::new();
     let slips = slips(forms, types);

@@ -46,6 +46,25 @@ const TABLE: &str = "gloss,handedness,handshape,handshape weak,location\n\
     E,2a,1,B,weak hand\nF,2a,1,V,weak hand\nG,2a,1,,chest\nH,1,B,B,weak hand\nI,both,5,5,chin > chest\n";
 
 #[test]
+fn a_weak_hand_that_does_not_apply_has_no_handshape() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let table = "gloss,handedness,handshape,handshape weak,location\nA,1,B,NA,chin\nB,1,V,N/A,chin\n\
+                 C,1,V,S,chin\nD,2s,B,NA,chest\nE,2s,B,B,chest\n";
+    let mut corpus = corpus_with(folder.path(), table);
+    let mut options = by(&["handedness", "handshape", "handshape weak"]);
+    options.battison = true;
+    let found = asked(&mut corpus, &options).expect("counted");
+    let weak = found
+        .findings
+        .iter()
+        .find(|it| it.message.contains("weak hand"));
+    assert_eq!(weak.expect("a finding").glosses, ["C"]);
+    let symmetry = found.battison.expect("conditions").symmetry;
+    assert_eq!((symmetry.entries, symmetry.given), (2, 1));
+    assert_eq!(symmetry.incomplete, ["D"]);
+}
+
+#[test]
 fn fields_of_a_small_table_are_described() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = corpus_with(folder.path(), TABLE);
