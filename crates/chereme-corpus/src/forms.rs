@@ -215,27 +215,53 @@ impl Corpus {
                 continue;
             };
             let columns = table.columns.iter().enumerate();
-            let kept = columns.filter(|(at, column)| {
-                matches!(column.meaning, Meaning::Coding { .. }) || named.contains(at)
-            });
+            let kept =
+                columns.filter(|(at, column)| is_coding(&column.meaning) || named.contains(at));
             return Ok(Some(kept.map(|(_, it)| it.title.clone()).collect()));
         }
         Ok(None)
     }
 }
 
-/// Returns an imported table; nothing if it cannot be read.
+/// Returns an imported table, with the meanings of columns that the user gave it; nothing if it cannot be read.
 fn table_of(connection: &Connection, file: &SourceFileRow) -> Result<Option<Lexicon>> {
     let bytes = recordings::source_bytes(connection, file.id)?;
-    let read = |bytes: Vec<u8>| lexicon::read(&bytes, &Default::default()).ok();
+    let mapping = recordings::source_mapping(connection, file.id)?.unwrap_or_default();
+    let read = |bytes: Vec<u8>| lexicon::read(&bytes, &mapping).ok();
     Ok(bytes.and_then(read).map(|(table, _)| table))
 }
 
-/// Returns the place of a column by its title; case and accents do not count.
+/// Returns the place of a column by its title, case and accents apart, otherwise by the component that the title means:
+/// `Handshape strong` is `Strong Hand`, too.
 fn place(table: &Lexicon, title: &str) -> Option<usize> {
     let wanted = fold(title.trim());
-    let mut titles = table.columns.iter();
-    titles.position(|column| fold(column.title.trim()) == wanted)
+    let position = |is: &dyn Fn(&Column) -> bool| table.columns.iter().position(is);
+    let titled = position(&|column| fold(column.title.trim()) == wanted);
+    let meant = || {
+        // A field of queries asks for codings.
+        let meaning = Some(lexicon::meaning_of_title(title)).filter(is_coding)?;
+        position(&|column| column.meaning == meaning).filter(|_| title.parse::<Field>().is_err())
+    };
+    titled.or_else(meant)
+}
+
+fn is_coding(meaning: &Meaning) -> bool {
+    matches!(meaning, Meaning::Coding { .. })
+}
+
+/// Returns whether a row of a table has these cells, by their titles.
+pub(crate) fn row_has_cells(
+    table: &Lexicon,
+    row: &LexiconEntry,
+    cells: &Map<String, Value>,
+) -> bool {
+    let titles = table.columns.iter().map(|column| column.title.as_str());
+    let filled = titles
+        .zip(&row.cells)
+        .filter(|(_, cell)| !cell.trim().is_empty());
+    let own: BTreeMap<&str, &str> = filled.map(|(title, cell)| (title, cell.as_str())).collect();
+    let mut cells = cells.iter();
+    cells.all(|(title, cell)| own.get(title.as_str()).copied() == cell.as_str())
 }
 
 /// An entry of a table that the corpus still has.
@@ -275,26 +301,17 @@ fn standing(connection: &Connection) -> Result<BTreeMap<String, Standing>> {
 
 /// Returns what the corpus has now of a row of a table; nothing if the corpus no longer has its sign.
 fn standing_entry<'a>(
-    table: &'a Standing,
-    columns: &[Column],
+    standing: &'a Standing,
+    table: &Lexicon,
     row: &LexiconEntry,
 ) -> Option<&'a StandingEntry> {
-    let entries = table.get(&row.line)?;
-    let same_cells = |cells: &Map<String, Value>| {
-        let filled = columns.iter().zip(&row.cells).filter(|(column, cell)| {
-            !cell.trim().is_empty() && !matches!(column.meaning, Meaning::Gloss { .. })
-        });
-        let own: BTreeMap<&str, &str> = filled
-            .map(|(column, cell)| (column.title.as_str(), cell.as_str()))
-            .collect();
-        own.len() == cells.len()
-            && own
-                .iter()
-                .all(|(title, cell)| cells.get(*title).and_then(Value::as_str) == Some(*cell))
-    };
+    let entries = standing.get(&row.line)?;
     let named = entries.iter().find(|it| it.gloss == row.gloss);
     // A sign that was renamed in the corpus is known by its cells.
-    named.or_else(|| entries.iter().find(|it| same_cells(&it.cells)))
+    named.or_else(|| {
+        let mut entries = entries.iter();
+        entries.find(|it| row_has_cells(table, row, &it.cells))
+    })
 }
 
 /// Returns the rows of the imported tables that have all the columns, if there are such tables: those of the newest
@@ -309,6 +326,8 @@ fn of_tables(
     }
     let mut rows = Vec::new();
     let mut known: BTreeSet<String> = BTreeSet::new();
+    // The fewest fields that a table lacks, with the first of them.
+    let mut lacking: Option<(usize, &String)> = None;
     let mut columns: Option<Vec<FormField>> = None;
     let tables = standing(connection)?;
     let among: Option<BTreeSet<i64>> = among.map(|it| it.iter().map(|token| token.id).collect());
@@ -317,10 +336,16 @@ fn of_tables(
             continue;
         };
         known.extend(table.columns.iter().map(|it| it.title.clone()));
-        let places = fields.iter().map(|field| place(&table, field));
-        let Some(places) = places.collect::<Option<Vec<usize>>>() else {
+        let places: Vec<Option<usize>> = fields.iter().map(|field| place(&table, field)).collect();
+        let mut lacks = fields.iter().zip(&places).filter(|(_, at)| at.is_none());
+        if let Some((first, _)) = lacks.next() {
+            let count = lacks.count();
+            if lacking.is_none_or(|(least, _)| count < least) {
+                lacking = Some((count, first));
+            }
             continue;
-        };
+        }
+        let places: Vec<usize> = places.into_iter().flatten().collect();
         let named = fields.iter().zip(&places).map(|(name, at)| FormField {
             name: name.clone(),
             coding: coding_of_column(&table.columns[*at]),
@@ -331,7 +356,7 @@ fn of_tables(
             continue;
         };
         rows.extend(table.entries.iter().filter_map(|entry| {
-            let standing = standing_entry(entries, &table.columns, entry)?;
+            let standing = standing_entry(entries, &table, entry)?;
             let among = among.as_ref();
             among
                 .is_none_or(|it| it.contains(&standing.token))
@@ -355,8 +380,10 @@ fn of_tables(
     let title = |field: &&String| field.parse::<Field>().is_err();
     match fields.iter().find(title) {
         None => Ok(None),
-        Some(field) => {
-            let near = did_you_mean(nearest(field, known.iter().map(String::as_str)));
+        Some(title) => {
+            let field = lacking.map_or(title, |(_, first)| first);
+            let others = known.iter().filter(|it| *it != field);
+            let near = did_you_mean(nearest(field, others.map(String::as_str)));
             let titles: Vec<&str> = known.iter().map(String::as_str).collect();
             let text = format!("no imported table has a column {field:?} with the others{near}");
             Err(Error::wrong(text).at(field).advise(format!(

@@ -3,9 +3,11 @@
 use std::collections::BTreeMap;
 use std::io::Read;
 
+use chereme_formats::roles::Mapping;
 use chereme_sign::Remedy;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
+use serde_json::json;
 
 use super::columns::{Col, Origin, word};
 use super::damaged;
@@ -345,6 +347,28 @@ pub(crate) fn lexicon_files(connection: &Connection) -> Result<Vec<SourceFileRow
     let newest: BTreeMap<String, i64> = rows.iter().map(|row| (place(row), row.id)).collect();
     rows.retain(|row| newest.get(&place(row)) == Some(&row.id));
     Ok(rows)
+}
+
+/// Stores the meanings of a table's columns that a user's mapping named, by title.
+pub(crate) fn set_source_mapping(
+    connection: &Connection,
+    id: i64,
+    columns: &BTreeMap<String, String>,
+) -> Result<()> {
+    let text = (!columns.is_empty()).then(|| json!({ "columns": columns }).to_string());
+    connection
+        .prepare_cached("UPDATE source_file SET mapping = ?2 WHERE id = ?1 AND mapping IS NOT ?2")?
+        .execute(params![id, text])?;
+    Ok(())
+}
+
+/// Returns the mapping with which a stored table is read, if the user gave one.
+pub(crate) fn source_mapping(connection: &Connection, id: i64) -> Result<Option<Mapping>> {
+    let text: Option<String> = connection
+        .prepare_cached("SELECT mapping FROM source_file WHERE id = ?1")?
+        .query_row([id], |row| row.get(0))?;
+    let read = text.map(|text| Mapping::from_json(&text)).transpose();
+    read.map_err(|error| damaged(format!("source_file {id}"), error.to_string()))
 }
 
 /// Returns the bytes of a stored file.

@@ -237,16 +237,16 @@ pub(crate) fn delete_token(connection: &Connection, id: i64) -> Result<()> {
     Ok(())
 }
 
-/// Deletes a sign that has no token and no translation any more.
-pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<()> {
-    connection
+/// Deletes a sign that has no token and no translation any more, and returns whether it did.
+pub(crate) fn delete_empty_sign(connection: &Connection, sign: i64) -> Result<bool> {
+    let deleted = connection
         .prepare_cached(
             "DELETE FROM sign WHERE id = ?1 AND notes IS NULL
                 AND NOT EXISTS (SELECT 1 FROM token WHERE sign_id = ?1)
                 AND NOT EXISTS (SELECT 1 FROM sign_text WHERE sign_id = ?1)",
         )?
         .execute([sign])?;
-    Ok(())
+    Ok(deleted > 0)
 }
 
 /// Sets the values of a token; leaves unchanged rows untouched.

@@ -1,12 +1,13 @@
 //! Imports tables of lexicon codings: each row is a sign whose citation form is a token without movement.
 
-use std::cmp::Reverse;
-use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::Finding;
-use chereme_formats::lexicon::{self, Coding, Lexicon, LexiconEntry, Meaning};
+use chereme_formats::lexicon::{self, Coding, Column, Lexicon, LexiconEntry, Meaning};
+use chereme_formats::roles::Mapping;
 use chereme_formats::table::TableError;
+use chereme_sign::Remedy;
 use chereme_sign::query::Numerals;
 use chereme_sign::text::{composed, fold};
 use chereme_sign::{Component, Inventory, InventoryValue, Reading};
@@ -17,9 +18,11 @@ use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::attributes::{self, AttributeRow};
 use crate::db::columns::{Origin, ValueState};
-use crate::db::notations;
+use crate::db::edits;
+use crate::db::recordings::{self, SourceFileRow};
 use crate::db::signs::{self, TokenRow, TokenValueRow};
 use crate::error::{Error, Result};
+use crate::forms::row_has_cells;
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 
@@ -33,44 +36,69 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
     {
         return Ok(report.clone());
     }
+    let source = Source::of(job);
     let bytes = job.bytes()?;
-    let (table, findings) = match lexicon::read(&bytes, &job.options.mapping) {
+    let mut read = lexicon::read(&bytes, &job.options.mapping);
+    let mapped = read
+        .as_ref()
+        .is_ok_and(|(table, _)| map_columns(job, table));
+    let mut mapping = job.options.mapping.clone();
+    let before = match source.newest {
+        Some(id) if !mapped => recordings::source_mapping(job.connection, id)?,
+        _ => None,
+    };
+    let is_mapped_before = before.is_some();
+    if let Some(before) = before {
+        read = lexicon::read(&bytes, &before);
+        mapping = before;
+    }
+    let (table, findings) = match read {
         Err(error @ TableError::Missing { .. }) if !job.named => {
             return Ok(FileReport::skipped(job.path, &wrong(&error)));
         }
         other => other.map_err(|error| wrong(&error))?,
     };
-    let mapped = map_columns(job, &table);
     let mut report = match known {
         Some(report) if !mapped => return Ok(report),
         Some(_) => FileReport::new(job.path, FileStatus::Updated),
         None => FileReport::new(job.path, FileStatus::Imported),
     };
     let remapped = report.status == FileStatus::Updated;
+    let stated = stated_meanings(&table, &mapping);
     if remapped {
         report.findings.push(ReportFinding::note(
             "it was imported before: its columns were read again, as the mapping says",
         ));
+    } else if is_mapped_before && !stated.is_empty() {
+        let named = stated
+            .iter()
+            .map(|(title, text)| format!("{title:?} {text}"));
+        let named: Vec<String> = named.collect();
+        report.findings.push(ReportFinding::note(format!(
+            "its columns were read as in the import before, by the mapping given then: {}",
+            named.join(", ")
+        )));
     }
     report
         .findings
         .extend(findings.into_iter().map(ReportFinding::from));
     report.understood.columns = Some(table.columns.clone());
     let inventories = store_inventories(job, &table, &mut report)?;
-    let before = job
-        .places
-        .hashed(&job.hash)
-        .find(|row| row.kind == job.kind);
-    let file = match before.map(|row| row.id) {
+    let file = match source.same_bytes {
         Some(id) if remapped => id,
         _ => job.keep(None, Some(&bytes))?,
     };
+    recordings::set_source_mapping(job.connection, file, &stated)?;
     let numerals = numerals(&table);
     report.findings.extend(unsure_numbers(&table, &numerals));
     let stored = job.inventories.clone();
     let words = Words::new(&stored);
     let total = Some(table.entries.len() as u64);
-    let mut signs = Signs::default();
+    let mut signs = Signs {
+        earlier: EarlierEntries::load(job, &source)?,
+        source,
+        ..Signs::default()
+    };
     for (done, entry) in table.entries.iter().enumerate() {
         let token = import_entry(job, &table, entry, (&inventories, &numerals), &mut signs)?;
         if let Some(text) = &entry.notation {
@@ -93,7 +121,48 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             })?;
         }
     }
+    signs.leave_emptied(job)?;
+    report.findings.extend(signs.earlier.missing());
     Ok(report)
+}
+
+/// The earlier imports of a file.
+#[derive(Default)]
+struct Source {
+    /// The path under which entries of the file are known.
+    place: String,
+    /// The newest file at that path, of any bytes.
+    newest: Option<i64>,
+    /// The file of the same bytes.
+    same_bytes: Option<i64>,
+}
+
+impl Source {
+    fn of(job: &Job<'_>) -> Self {
+        let own = || {
+            job.places
+                .hashed(&job.hash)
+                .filter(|row| row.kind == job.kind)
+        };
+        let here = |row: &&SourceFileRow| row.path.as_deref() == Some(&job.place);
+        let same = own().find(here).or_else(|| own().next());
+        let place = same.and_then(|row| row.path.as_ref());
+        let place = place.unwrap_or(&job.place).clone();
+        let newest = job.places.at(&place, job.kind).or(same);
+        Self {
+            newest: newest.map(|row| row.id),
+            same_bytes: same.map(|row| row.id),
+            place,
+        }
+    }
+}
+
+/// Returns the meanings of the columns that a mapping names, as mappings spell them, by title.
+fn stated_meanings(table: &Lexicon, mapping: &Mapping) -> BTreeMap<String, String> {
+    let columns = table.columns.iter();
+    let stated = columns.filter(|column| mapping.column(&column.title).is_some());
+    let meaning = |column: &Column| (column.title.clone(), column.meaning.to_string());
+    stated.map(meaning).collect()
 }
 
 /// Returns the spelling of the numbers in each column of attributes.
@@ -162,25 +231,52 @@ struct Known {
 
 /// The signs of the table so far, by gloss; each is looked up once, however many rows share it.
 #[derive(Default)]
-struct Signs(BTreeMap<String, KnownSign>);
+struct Signs {
+    source: Source,
+    known: BTreeMap<String, KnownSign>,
+    earlier: EarlierEntries,
+    /// The signs that lost an entry to another gloss, with the cells of its row.
+    left: BTreeMap<i64, BTreeSet<String>>,
+}
 
 /// A sign of the corpus to which rows of the table add entries.
 struct KnownSign {
     id: i64,
     /// Whether one of its tokens is its citation form.
     has_citation: bool,
-    /// Its entries from an earlier import of the file at the same path, in reverse order; each belongs to the next row
-    /// with the sign's gloss.
-    earlier: Vec<TokenRow>,
 }
 
 impl Signs {
     /// Returns the sign with a gloss; inserts it if it is missing.
     fn glossed(&mut self, job: &mut Job<'_>, gloss: &str) -> Result<&mut KnownSign> {
-        match self.0.entry(composed(gloss).into_owned()) {
+        match self.known.entry(composed(gloss).into_owned()) {
             Entry::Occupied(known) => Ok(known.into_mut()),
             Entry::Vacant(new) => Ok(new.insert(KnownSign::load(job, gloss)?)),
         }
+    }
+
+    /// Deletes the signs that have no entry any more, with the translations that the table gave them, and gives the
+    /// others a citation form.
+    fn leave_emptied(&self, job: &mut Job<'_>) -> Result<()> {
+        for (sign, cells) in &self.left {
+            let tokens = signs::tokens_of_sign(job.connection, *sign)?;
+            match tokens.first() {
+                Some(first) if !first.citation => {
+                    edits::cite(job.connection, *sign, first.id)?;
+                }
+                Some(_) => {}
+                None => {
+                    for (language, text) in signs::texts(job.connection, *sign)? {
+                        if cells.contains(&text) {
+                            edits::remove_text(job.connection, *sign, &language, &text)?;
+                        }
+                    }
+                    let gone = signs::delete_empty_sign(job.connection, *sign)?;
+                    job.counts.removed("signs", usize::from(gone));
+                }
+            }
+        }
+        Ok(())
     }
 }
 
@@ -189,40 +285,93 @@ impl KnownSign {
         let is_new = signs::find_sign(job.connection, gloss)?.is_none();
         job.count("signs", usize::from(is_new));
         let id = signs::sign_glossed(job.connection, gloss)?;
-        let tokens = signs::tokens_of_sign(job.connection, id)?;
-        let has_citation = tokens.iter().any(|token| token.citation);
-        let mut earlier = Vec::new();
-        for token in tokens {
-            if is_earlier(job, &token)? {
-                earlier.push(token);
-            }
-        }
-        earlier.sort_unstable_by_key(|token| Reverse(token.id));
         Ok(Self {
             id,
-            has_citation,
-            earlier,
+            has_citation: signs::has_citation(job.connection, id)?,
         })
     }
 }
 
-/// Reports whether a token is an entry from an earlier import of the file; entries of other files are not.
-fn is_earlier(job: &Job<'_>, token: &TokenRow) -> Result<bool> {
-    if token.origin != Origin::Lexicon {
-        return Ok(false);
+/// The entries of earlier imports of the file that no row has taken yet, by gloss, oldest first.
+#[derive(Default)]
+struct EarlierEntries(BTreeMap<String, Vec<EarlierEntry>>);
+
+/// An entry of an earlier import.
+struct EarlierEntry {
+    token: TokenRow,
+    /// Its row of the table then: titles and cells, without the gloss and empty cells.
+    cells: Map<String, Value>,
+}
+
+impl EarlierEntries {
+    fn load(job: &Job<'_>, source: &Source) -> Result<Self> {
+        let mut all = Self::default();
+        let mut namesakes = job.places.namesakes(&job.file_name);
+        if source.newest.is_none() && !namesakes.any(|row| row.path.is_none()) {
+            return Ok(all);
+        }
+        for token in signs::lexicon_entries(job.connection)? {
+            let text = token.source.as_deref().unwrap_or_default();
+            let Ok(mut origin) = serde_json::from_str::<Value>(text) else {
+                continue;
+            };
+            let same = match origin["path"].as_str() {
+                Some(path) => path == source.place,
+                None => origin["file"].as_str() == Some(&job.file_name),
+            };
+            // A sign from a SiGML file has no cells: it is an entry of its own.
+            if let Value::Object(cells) = origin["cells"].take()
+                && same
+            {
+                let gloss = composed(&token.gloss).into_owned();
+                let entries = all.0.entry(gloss).or_default();
+                entries.push(EarlierEntry { token, cells });
+            }
+        }
+        Ok(all)
     }
-    let source: Value = token
-        .source
-        .as_deref()
-        .and_then(|text| serde_json::from_str(text).ok())
-        .unwrap_or_default();
-    let same = match source["path"].as_str() {
-        Some(path) => path == job.place,
-        None => source["file"].as_str() == Some(&job.file_name),
-    };
-    // A sign from a SiGML file is a separate entry.
-    let notation = notations::of_token(job.connection, token.id)?;
-    Ok(same && notation.is_none_or(|notation| notation.system == "hamnosys"))
+
+    /// Takes the entry of a row: the one with the same cells, whose gloss is that of the row or, because another column
+    /// was the gloss, that of another cell; otherwise the oldest with the row's gloss.
+    fn take(&mut self, table: &Lexicon, row: &LexiconEntry) -> Option<TokenRow> {
+        if self.0.is_empty() {
+            return None;
+        }
+        for (column, cell) in table.columns.iter().zip(&row.cells) {
+            let entries = self.0.get_mut(&*composed(cell.trim()));
+            let is_row = |it: &EarlierEntry| {
+                !it.cells.contains_key(&column.title) && row_has_cells(table, row, &it.cells)
+            };
+            if let Some(entries) = entries
+                && let Some(at) = entries.iter().position(is_row)
+            {
+                return Some(entries.remove(at).token);
+            }
+        }
+        let entries = self.0.get_mut(&*composed(&row.gloss));
+        let entries = entries.filter(|entries| !entries.is_empty())?;
+        Some(entries.remove(0).token)
+    }
+
+    /// Returns a finding about the entries that no row of the table has taken.
+    fn missing(&self) -> Option<ReportFinding> {
+        let mut glosses = self.0.iter().filter(|(_, left)| !left.is_empty());
+        let shown = glosses.by_ref().take(SHOWN_NAMES);
+        let shown: Vec<&str> = shown.map(|(gloss, _)| gloss.as_str()).collect();
+        let more = match glosses.count() {
+            0 => String::new(),
+            more => format!(", and {more} more"),
+        };
+        let message = format!(
+            "signs of an earlier version of this table that have no row here, and were kept: {}{more}",
+            shown.join(", ")
+        );
+        let remedy = Remedy::command(
+            "`chereme delete CORPUS sign:GLOSS` deletes a sign that is not wanted any more; or put its row back into the \
+             table, and import that again",
+        );
+        (!shown.is_empty()).then(|| ReportFinding::warning(message, remedy))
+    }
 }
 
 /// Stores the values that the table uses, unless an inventory of the corpus already has them all and keeps them apart.
@@ -324,20 +473,34 @@ fn import_entry(
     signs: &mut Signs,
 ) -> Result<i64> {
     let connection = job.connection;
+    let known = signs.earlier.take(table, entry);
+    let (is_known, mut is_moved) = (known.is_some(), false);
+    let source = Some(cells(job, (table, &signs.source), entry).to_string());
     let sign = signs.glossed(job, &entry.gloss)?;
     for (language, text) in &entry.translations {
         signs::add_text(connection, sign.id, language, text)?;
     }
-    let known = sign.earlier.pop();
-    let is_known = known.is_some();
-    let source = Some(cells(job, table, entry).to_string());
     let token = match known {
         Some(token) => {
-            let id = token.id;
-            if token.source != source {
-                signs::update_token(connection, &TokenRow { source, ..token })?;
+            let row = TokenRow {
+                sign_id: sign.id,
+                citation: match token.sign_id == sign.id {
+                    true => token.citation,
+                    false => !sign.has_citation,
+                },
+                source,
+                ..token.clone()
+            };
+            sign.has_citation |= row.citation;
+            if row != token {
+                signs::update_token(connection, &row)?;
             }
-            id
+            is_moved = row.sign_id != token.sign_id;
+            if is_moved {
+                let left = signs.left.entry(token.sign_id).or_default();
+                left.extend(entry.cells.iter().map(|cell| cell.trim().to_owned()));
+            }
+            token.id
         }
         None => {
             let row = TokenRow {
@@ -365,7 +528,7 @@ fn import_entry(
         .iter()
         .map(|coding| value_row(coding, inventories))
         .collect();
-    if is_known && !signs::values(connection, token)?.starts_with(&values) {
+    if is_moved || is_known && !signs::values(connection, token)?.starts_with(&values) {
         job.counts.changed("tokens", 1);
     }
     signs::set_values(connection, token, &values)?;
@@ -392,7 +555,7 @@ fn value_row(coding: &Coding, inventories: &BTreeMap<InventoryKey, Known>) -> To
 }
 
 /// Returns the cells of a row as in the table, so that nothing is lost.
-fn cells(job: &Job<'_>, table: &Lexicon, entry: &LexiconEntry) -> Value {
+fn cells(job: &Job<'_>, (table, source): (&Lexicon, &Source), entry: &LexiconEntry) -> Value {
     let cells: Map<String, Value> = table
         .columns
         .iter()
@@ -402,5 +565,5 @@ fn cells(job: &Job<'_>, table: &Lexicon, entry: &LexiconEntry) -> Value {
         })
         .map(|(column, cell)| (column.title.clone(), Value::from(cell.as_str())))
         .collect();
-    json!({ "file": job.file_name, "path": job.place, "line": entry.line, "cells": cells })
+    json!({ "file": job.file_name, "path": source.place, "line": entry.line, "cells": cells })
 }

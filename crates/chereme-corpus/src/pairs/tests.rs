@@ -72,6 +72,42 @@ fn pairs_differ_in_one_field_and_name_it() {
 }
 
 #[test]
+fn named_sets_of_fields_fit_the_titles_of_signbank() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("t.csv");
+    let table = "Annotation ID Gloss (Dutch),Handedness,Strong Hand,Weak Hand,Handshape Change,\
+                 Relation between Articulators,Location,Relative Orientation: Movement,\
+                 Relative Orientation: Location,Orientation Change,Contact Type,Movement Shape,\
+                 Movement Direction,Repeated Movement,Alternating Movement\n\
+                 A,1,B,,,,chin,Palm,-,,,,down,False,False\nC,1,5,,,,chin,Palm,-,,,,down,False,False\n\
+                 D,1,5,,,,chin,Back,-,,,,down,False,False\n";
+    std::fs::write(&file, table).expect("written");
+    let corpus = corpus_of(folder.path(), &file);
+    let found = asked(&corpus, &["S13"], Empty::Value);
+    let list: Vec<String> = found
+        .list
+        .iter()
+        .map(|it| line(it).trim().replace('\t', " "))
+        .collect();
+    assert_eq!(
+        list,
+        ["A C Handshape strong", "C D Relative orientation movement"]
+    );
+    let options = PairOptions {
+        fields: ["Handedness", "Strong Hands", "Location"]
+            .map(str::to_owned)
+            .to_vec(),
+        ..PairOptions::default()
+    };
+    let error = corpus
+        .pairs(&options)
+        .expect_err("no such column")
+        .to_string();
+    let said = "no imported table has a column \"Strong Hands\" with the others; did you mean \"Strong Hand\"?";
+    assert!(error.contains(said), "{error}");
+}
+
+#[test]
 fn pairs_count_only_rows_that_the_corpus_still_has() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("t.csv");

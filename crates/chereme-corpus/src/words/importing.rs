@@ -502,6 +502,22 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "il a été importé auparavant : ses colonnes ont été relues, comme le dit la correspondance",
     ),
     (
+        "its columns were read as in the import before, by the mapping given then: {columns}",
+        "ses colonnes ont été lues comme à l’importation d’avant, selon la correspondance donnée alors : {columns}",
+    ),
+    (
+        "signs of an earlier version of this table that have no row here, and were kept: {names}, and {n} more",
+        "signes d’une version antérieure de ce tableau qui n’ont pas de ligne ici, et ont été gardés : {names}, et {n} de plus",
+    ),
+    (
+        "signs of an earlier version of this table that have no row here, and were kept: {names}",
+        "signes d’une version antérieure de ce tableau qui n’ont pas de ligne ici, et ont été gardés : {names}",
+    ),
+    (
+        "{command} deletes a sign that is not wanted any more; or put its row back into the table, and import that again",
+        "{command} supprime un signe qui n’est plus voulu ; ou remettez sa ligne dans le tableau, et réimportez celui-ci",
+    ),
+    (
         "the inventory {id} has other names for values, under which they are stored: {names}, and {n} more",
         "l’inventaire {id} a d’autres noms pour des valeurs, sous lesquels elles sont enregistrées : {names}, et {n} de plus",
     ),
