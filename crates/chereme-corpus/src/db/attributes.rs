@@ -72,7 +72,7 @@ pub(crate) fn names(connection: &Connection) -> Result<Vec<String>> {
 
 /// Returns the tokens with an attribute of one of these names that passes, and all tokens with such an attribute.
 ///
-/// An entry of a lexicon has its own attributes; every other token of a sign has those of the sign's entries.
+/// A row of a table has its own attributes alone; every other token of a sign has those of the sign's rows.
 pub(crate) fn tokens_that(
     connection: &Connection,
     names: &[String],
@@ -104,13 +104,13 @@ pub(crate) fn tokens_that(
     let mut having = entries.clone();
     let signs: Vec<i64> = signs.into_iter().collect();
     let mut statement = connection.prepare_cached(
-        "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))",
+        "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
+             AND NOT (origin = 'lexicon' AND coalesce(source ->> '$.cells' IS NOT NULL, 0))",
     )?;
     let mut rows = statement.query([json_list(&signs)])?;
     while let Some(row) = rows.next()? {
         let (token, sign): (i64, i64) = (row.get(0)?, row.get(1)?);
-        having.insert(token);
-        if !entries.contains(&token) && passing_signs.contains(&sign) {
+        if having.insert(token) && passing_signs.contains(&sign) {
             passing.insert(token);
         }
     }
