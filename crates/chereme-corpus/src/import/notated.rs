@@ -2,6 +2,7 @@
 //! components derived from it.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
 
 use chereme_formats::{Finding, Mend};
 use chereme_sign::hamnosys::Notated;
@@ -12,9 +13,11 @@ use super::report::ReportFinding;
 use super::{FileReport, FileStatus, Job};
 use crate::db::columns::Origin;
 use crate::db::notations::{self, NotationRow};
+use crate::db::recordings::SourceFileRow;
 use crate::db::signs::{self, TokenRow};
 use crate::error::Result;
 use crate::notation::{self, Form};
+use crate::paths::legible;
 use crate::progress::Progress;
 
 /// Reads a file of SiGML.
@@ -28,11 +31,20 @@ pub(super) fn import_lines(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Re
 }
 
 fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<FileReport> {
-    if let Some(report) = job.unchanged() {
-        return Ok(report);
+    let known = job.unchanged();
+    if let Some(report) = &known
+        && is_known_by_name(job)
+    {
+        return Ok(report.clone());
     }
     let bytes = job.bytes()?;
     let (entries, findings) = notation::read_signs(&bytes, form)?;
+    // Signs without a gloss are called as their file: under another name the same bytes are other signs.
+    if let Some(report) = known
+        && entries.iter().all(|(sign, _)| !sign.gloss.is_empty())
+    {
+        return Ok(report);
+    }
     let mut report = FileReport::new(job.path, FileStatus::Imported);
     // The names given to these signs are reported below.
     let named = |finding: &Finding| finding.mend != Some(Mend::Gloss);
@@ -71,6 +83,13 @@ fn import(job: &mut Job<'_>, form: Form, progress: &mut Progress<'_>) -> Result<
         ));
     }
     Ok(report)
+}
+
+/// Returns whether a file of the same bytes and of this name, the ending apart, was imported before.
+fn is_known_by_name(job: &Job<'_>) -> bool {
+    let stem = |row: &SourceFileRow| Path::new(&row.name).file_stem().map(legible);
+    let mut same = job.places.hashed(&job.hash);
+    same.any(|row| row.kind == job.kind && stem(row).as_ref() == Some(&job.stem))
 }
 
 /// Returns the tokens of an earlier import of this file. Tokens of a file of the same name in another folder are other
