@@ -204,6 +204,14 @@ pub(crate) fn coding_name(field: &Field) -> String {
 
 fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
     let mut values: BTreeMap<String, BTreeMap<Option<Phase>, Vec<&str>>> = BTreeMap::new();
+    // An initial value that no final one follows is the only one.
+    let ends_never = |row: &TokenValueRow| {
+        let field = (row.hand, row.component, &row.feature, Some(Phase::Final));
+        rows.iter().any(|it| {
+            it.state == ValueState::NotApplicable
+                && (it.hand, it.component, &it.feature, it.phase) == field
+        })
+    };
     for row in rows {
         let Some(value) = row
             .value
@@ -218,6 +226,8 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
         let hand = row.hand.and_then(Hands::one);
         let weak = hand.is_some_and(|hand| hand.resolve(handedness) != handedness.dominant());
         let both = row.hand == Some(Hands::Both);
+        let is_only = row.phase == Some(Phase::Initial) && ends_never(row);
+        let phase = row.phase.filter(|_| !is_only);
         let feature = row
             .feature
             .as_ref()
@@ -230,7 +240,7 @@ fn coding(rows: &[TokenValueRow], handedness: Handedness) -> Coding {
         let mut add = |prefix: &str| {
             let field = format!("{prefix}{}{feature}", row.component);
             let phases = values.entry(field).or_default();
-            phases.entry(row.phase).or_default().push(value);
+            phases.entry(phase).or_default().push(value);
         };
         if weak {
             add("weak.");

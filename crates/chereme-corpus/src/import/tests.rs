@@ -5,6 +5,7 @@ mod captured;
 mod film;
 mod foreign;
 mod lexicon;
+mod lexicon_again;
 mod points;
 mod reading;
 mod renamed;

@@ -17,8 +17,8 @@ use crate::db::search::terms::{hands_of, phase_counts};
 /// A comparison of a component, prepared for evaluation.
 ///
 /// A field without a part means the whole component. If the whole does not know a value, the parts that do are compared
-/// (`nonmanual=raised`); without a value (`*`, `unset`) all parts count. If the field names no hand or phase, every
-/// reading of the token counts.
+/// (`nonmanual=raised`); `*` and `unset` mean the whole, or all parts if the corpus has no value of the whole. If the field
+/// names no hand or phase, every reading of the token counts.
 pub(crate) struct ComponentTest {
     pub(crate) field: Field,
     subject_at: std::ops::Range<usize>,
@@ -227,7 +227,13 @@ fn parts_meant<'a>(
         }
     }
     if matches!(value.wanted, Wanted::Present | Wanted::Missing(_)) {
-        return Ok(all.iter().collect());
+        // Where components have main values, one speaks of these.
+        let has_main = known.parts.contains_key(&None);
+        let meant = all.iter().filter(|part| part.is_none() || !has_main);
+        return Ok(match field.feature {
+            Some(_) => all.iter().collect(),
+            None => meant.collect(),
+        });
     }
     let knows = |part: &&Option<String>| {
         let (of, stored) = ((field.component, part.as_deref()), known.parts.get(*part));

@@ -32,6 +32,7 @@ const COUNTS: &[(&str, usize)] = &[
     ("movement.shape=arc*", 169),
     ("placement=* > chest", 3),
     ("placement==head > *", 1),
+    ("dominant.configuration=* > S", 9),
     ("hand=both", 990),
     ("@chin", 96),
     ("not @chin", 2049),

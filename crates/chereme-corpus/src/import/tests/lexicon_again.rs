@@ -1,0 +1,281 @@
+//! Tests of lexicon tables that are imported again, of their mapping, and of queries for what their cells hold.
+
+use super::*;
+use crate::{PairOptions, Progress, SearchOptions};
+
+fn total(corpus: &mut Corpus, query: &str) -> usize {
+    let answer = corpus.search(query, &SearchOptions::default());
+    answer.expect(query).total
+}
+
+fn pairs(corpus: &Corpus, fields: &[&str]) -> (usize, usize) {
+    let options = PairOptions {
+        fields: fields.iter().map(|it| (*it).to_owned()).collect(),
+        ..PairOptions::default()
+    };
+    let found = corpus.pairs(&options).expect("counted");
+    (found.total, found.entries)
+}
+
+fn glosses(corpus: &Corpus) -> Vec<String> {
+    crate::db::signs::glosses(corpus.store.read()).expect("glosses")
+}
+
+fn messages(report: &FileReport) -> String {
+    let all = report.findings.iter().map(|it| it.message.as_str());
+    all.collect::<Vec<_>>().join("\n")
+}
+
+const BY_LEMMA: &str = r#"{"columns": {"LemmaID": "gloss", "EntryID": "attribute"}}"#;
+
+#[test]
+fn another_mapping_of_the_gloss_changes_the_signs_and_makes_no_new_ones() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let text = "EntryID,LemmaID,Handshape\ne1,L1,B\ne2,L2,5\ne3,L2,5\nL1,e1,A\n";
+    let table = desk.file("m.csv", text);
+    import(&mut corpus, &table, "{}");
+    assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
+    let name = Name::Text("e2".into());
+    let note = crate::SignChange {
+        notes: Some(Some("kept".to_owned())),
+        ..crate::SignChange::default()
+    };
+    corpus.change_sign(&name, &note).expect("noted");
+    let before = corpus.info().expect("info").counts.clone();
+    let report = import(&mut corpus, &table, BY_LEMMA);
+    assert_eq!(report.status, FileStatus::Updated);
+    // A sign that somebody wrote a remark about stays.
+    assert_eq!(glosses(&corpus), ["L1", "L2", "e1", "e2"]);
+    assert_eq!(
+        corpus.info().expect("info").counts["tokens"],
+        before["tokens"]
+    );
+    for (query, wanted) in [
+        ("", 4),
+        ("gloss=L1 configuration=B attribute.EntryID=e1", 1),
+        ("gloss=e1 configuration=A attribute.EntryID=L1", 1),
+        ("gloss=L2 configuration=5", 2),
+        ("gloss=e2", 0),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let cited = "SELECT count(*) FROM token GROUP BY sign_id HAVING sum(citation) <> 1";
+    let cited = corpus
+        .store
+        .read()
+        .prepare(cited)
+        .and_then(|mut it| it.exists([]));
+    assert!(!cited.expect("counted"), "each sign has one citation form");
+    assert_whole(&mut corpus);
+    // A copy of the table at another place is the same table.
+    fs::create_dir(desk.folder.path().join("b")).expect("made");
+    let copy = desk.file("b/m.csv", text);
+    import(&mut corpus, &copy, r#"{"columns": {"EntryID": "gloss"}}"#);
+    assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
+    assert_eq!(total(&mut corpus, ""), 4);
+    corpus.undo().expect("undone");
+    corpus.undo().expect("undone");
+    assert_eq!(glosses(&corpus), ["L1", "e1", "e2", "e3"]);
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn the_mapping_of_a_table_is_used_whenever_the_table_is_read() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let text = "EntryID,LemmaID,Form\ne1,L1,B\ne2,L2,5\n";
+    let mapping = r#"{"columns": {"Lemma*": "gloss", "EntryID": "attribute", "Form": "dominant.configuration"}}"#;
+    let table = desk.file("m.csv", text);
+    import(&mut corpus, &table, mapping);
+    assert_eq!(pairs(&corpus, &["Form"]), (1, 2));
+    assert_eq!(
+        pairs(&corpus, &["Handshape strong"]),
+        (1, 2),
+        "by its meaning"
+    );
+    // The next version has no mapping of its own, or one that is about another table.
+    for (at, other) in ["{}", r#"{"columns": {"Ort": "placement"}}"#]
+        .into_iter()
+        .enumerate()
+    {
+        let table = desk.file("m.csv", &format!("{text}e3,L3,S{at}\n"));
+        let report = import(&mut corpus, &table, other);
+        let messages = messages(&report);
+        let said = "by the mapping given then: \"EntryID\" attribute, \"Form\" dominant.configuration, \
+                    \"LemmaID\" gloss";
+        assert!(messages.contains(said), "{messages}");
+        assert_eq!(glosses(&corpus), ["L1", "L2", "L3"]);
+        assert_eq!(
+            total(&mut corpus, &format!("gloss=L3 configuration=S{at}")),
+            1
+        );
+        assert_eq!(pairs(&corpus, &["Form"]), (3, 3));
+    }
+    assert_whole(&mut corpus);
+}
+
+#[test]
+fn a_row_that_was_removed_from_a_table_is_reported() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let head = "gloss,handshape\nA,V\n";
+    import(
+        &mut corpus,
+        &desk.file("t.csv", &format!("{head}B,5\nC,S\nC,A\n")),
+        "{}",
+    );
+    for rows in ["C,S\n", "C,B\n"] {
+        let report = import(
+            &mut corpus,
+            &desk.file("t.csv", &format!("{head}{rows}")),
+            "{}",
+        );
+        let found = report
+            .findings
+            .iter()
+            .find(|it| it.message.contains("no row here"));
+        let found = found.expect("a finding");
+        assert!(
+            found.message.ends_with("were kept: B, C"),
+            "{}",
+            found.message
+        );
+        let remedy = found.remedy.as_ref().expect("a remedy").to_string();
+        assert!(
+            remedy.contains("chereme delete CORPUS sign:GLOSS"),
+            "{remedy}"
+        );
+        assert_eq!(total(&mut corpus, "gloss=C configuration=A"), 1);
+    }
+    let whole = desk.file("t.csv", &format!("{head}B,5\nC,B\nC,A\nD,A\n"));
+    let report = import(&mut corpus, &whole, "{}");
+    assert!(
+        !messages(&report).contains("no row here"),
+        "{}",
+        messages(&report)
+    );
+    assert_eq!(total(&mut corpus, ""), 5);
+}
+
+#[test]
+fn a_homonym_has_its_own_attributes_alone() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let text =
+        "Gloss,Handshape,Location,Frequency,Iconicity\nBANK,B,chin,5.5,\nBANK,A,chest,,2.0\n";
+    import(&mut corpus, &desk.file("t.csv", text), "{}");
+    import(
+        &mut corpus,
+        &desk.file("take.eaf", &eaf(&[("Gloss", 0, 500, "BANK")])),
+        "{}",
+    );
+    for (query, wanted) in [
+        ("attribute.Iconicity<3 configuration=B", 0),
+        ("attribute.Iconicity<3 configuration=A", 1),
+        ("attribute.Frequency=* configuration=A", 0),
+        ("attribute.Iconicity=unset", 1),
+        ("attribute.Iconicity!=7", 2),
+        (
+            "attribute.Iconicity=2 attribute.Frequency=5.5 origin=captured",
+            1,
+        ),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+}
+
+#[test]
+fn signs_without_a_gloss_under_two_names_are_two_signs() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let sign = |gloss: &str| {
+        format!(
+            "<sigml><hns_sign{gloss}><hamnosys_manual><hamflathand/><hamextfingeru/><hampalml/></hamnosys_manual></hns_sign></sigml>"
+        )
+    };
+    fs::create_dir(desk.folder.path().join("b")).expect("made");
+    for (name, text, status, signs) in [
+        ("one.sigml", sign(""), FileStatus::Imported, 1),
+        ("two.sigml", sign(""), FileStatus::Imported, 2),
+        ("two.sigml", sign(""), FileStatus::Unchanged, 2),
+        ("b/one.sigml", sign(""), FileStatus::Unchanged, 2),
+        ("three.sigml", sign(" gloss=\"C\""), FileStatus::Imported, 3),
+        ("four.sigml", sign(" gloss=\"C\""), FileStatus::Unchanged, 3),
+    ] {
+        let report = import(&mut corpus, &desk.file(name, &text), "{}");
+        assert_eq!(report.status, status, "{name}: {}", messages(&report));
+        assert_eq!(glosses(&corpus).len(), signs, "{name}");
+    }
+}
+
+#[test]
+fn queries_know_initial_values_and_movements_that_are_none() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let text = "Gloss,Handshape,Final handshape,Location,Final location,Movement,Repeated movement,Contact\n\
+                A,B,S,chin,chest,None,yes,yes\nC,B,,chin,,arc,no,no\nD,S,B,chest,chin,,yes,yes\n";
+    import(&mut corpus, &desk.file("t.csv", text), "{}");
+    for (query, wanted) in [
+        ("placement=chin > chest", 1),
+        ("placement=chin > *", 1),
+        ("configuration=B > S", 1),
+        ("final.placement=chin", 2),
+        ("final.configuration=B", 2),
+        ("initial.placement=chin", 2),
+        ("placement=chin", 3),
+        ("movement=none", 1),
+        ("movement=unset", 1),
+        ("movement=*", 2),
+        ("not movement=*", 1),
+        ("movement.repeated=*", 3),
+        ("placement.contact=*", 3),
+        // Of the orientation, the corpus has neither values nor parts.
+        ("orientation=unset", 3),
+    ] {
+        assert_eq!(total(&mut corpus, query), wanted, "{query}");
+    }
+    let mut hear = unheard;
+    let progress = &mut Progress::new(&mut hear);
+    let tally = corpus.tally("", &["initial.placement".to_owned()], progress);
+    let rows = tally.expect("counted").rows.into_iter();
+    let rows: Vec<_> = rows.map(|row| (row.value, row.total)).collect();
+    assert_eq!(rows, [("chin".to_owned(), 2), ("chest".to_owned(), 1)]);
+    let out = desk.folder.path().join("tokens.csv");
+    let options = ExportOptions::default();
+    corpus
+        .export(&ExportWhat::All, &out, &options, progress)
+        .expect("exported");
+    let written = fs::read_to_string(out).expect("read");
+    assert!(
+        written.contains("chin > chest") && written.contains("B > S"),
+        "{written}"
+    );
+    // A final place that does not apply leaves one place.
+    let mut minor = desk.corpus("e.chereme");
+    let text = "Gloss,MinorLocation,SecondMinorLocation\nA,Palm,NA\nB,Palm,Wrist\nC,Chin,Palm\n";
+    import(&mut minor, &desk.file("e.csv", text), "{}");
+    for (query, wanted) in [
+        ("final.placement.minor=Palm", 1),
+        ("placement.minor=Palm > *", 1),
+        ("placement.minor=Palm", 3),
+    ] {
+        assert_eq!(total(&mut minor, query), wanted, "{query}");
+    }
+    let coded = crate::db::signs::citations(minor.store.read()).expect("tokens");
+    let coded = coded
+        .iter()
+        .map(|token| minor.coding_of(token).expect("a coding"));
+    let coded: Vec<String> = coded.map(|it| it["placement.minor"].clone()).collect();
+    assert_eq!(coded, ["Palm", "Palm > Wrist", "Chin > Palm"]);
+    // Where only parts are coded, they count.
+    let mut parts = desk.corpus("d.chereme");
+    import(
+        &mut parts,
+        &desk.file("d.csv", "Gloss,Movement direction\nA,up\nB,\n"),
+        "{}",
+    );
+    for (query, wanted) in [("movement=*", 1), ("movement=unset", 1), ("movement=up", 1)] {
+        assert_eq!(total(&mut parts, query), wanted, "{query}");
+    }
+}
