@@ -391,6 +391,36 @@ fn a_short_row_below_a_wide_one_costs_little() {
 }
 
 #[test]
+fn tables_and_cells_beyond_the_limits_are_refused_with_their_place() {
+    let refused = |text: String| lexicon::read(text.as_bytes(), &Mapping::default());
+    let rows = refused(format!("gloss,Handshape\n{}", "x,B\n".repeat(1_000_001)));
+    assert_eq!(rows.err(), Some(TableError::TooLarge { line: 1_000_002 }));
+    let cells = refused(format!(
+        "gloss,{}\n{}",
+        "c,".repeat(400),
+        format!("x{}\n", ",1".repeat(401)).repeat(12_000)
+    ));
+    assert!(
+        matches!(cells, Err(TableError::TooLarge { line: 9_951 })),
+        "{:?}",
+        cells.err()
+    );
+    let long = refused(format!(
+        "gloss,Handshape\nA,B\n{},B\n",
+        "x".repeat((1 << 20) + 1)
+    ));
+    let (line, column, bytes) = (3, 1, (1 << 20) + 1);
+    assert_eq!(
+        long.err(),
+        Some(TableError::LongCell {
+            line,
+            column,
+            bytes
+        })
+    );
+}
+
+#[test]
 fn inventories_count_values_of_both_hands_and_all_phases() {
     let (lexicon, _) = read(
         "gloss\tHandshape strong\tHandshape weak\tLocation\nA\tB\t\tchin > nose\nC\tB\t5\tchin\nD\tB > 5\t-\t?\n",

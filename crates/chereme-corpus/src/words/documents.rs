@@ -92,6 +92,10 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
         "l’acteur {name} est sous {parent}, qui n’est pas dans le fichier ; il devient un acteur racine",
     ),
     (
+        "the tier {name} hangs below more than {n} others; it becomes a root tier",
+        "l’acteur {name} est sous plus de {n} autres ; il devient un acteur racine",
+    ),
+    (
         "the tier {name} hangs below itself; it becomes a root tier",
         "l’acteur {name} est sous lui-même ; il devient un acteur racine",
     ),
@@ -431,6 +435,14 @@ pub(super) const DOCUMENTS: &[(&str, &str)] = &[
     (
         "the first row has {n} columns, more than {most}",
         "la première ligne a {n} colonnes, plus de {most}",
+    ),
+    (
+        "the table has more than {rows} rows or {cells} cells up to here; divide it into several files",
+        "le tableau a plus de {rows} lignes ou {cells} cellules jusqu’ici ; répartissez-le en plusieurs fichiers",
+    ),
+    (
+        "the cell of column {n} has {bytes} bytes, and a value has at most {longest}; look for a quotation mark that is not closed",
+        "la cellule de la colonne {n} a {bytes} octets, et une valeur en a au plus {longest} ; cherchez un guillemet qui n’est pas fermé",
     ),
     (
         "the rows up to here lack {lacking} cells of the first row's {n} columns; write one row of titles that fits the others",

@@ -5,6 +5,7 @@ use super::raw::{Anchor, Document};
 use crate::finding::Finding;
 use crate::tally::Findings;
 use chereme_sign::Stereotype;
+use chereme_sign::tier::MAX_DEPTH;
 use std::collections::{HashMap, HashSet};
 
 /// The index of an annotation in the document, counted over all tiers.
@@ -285,7 +286,7 @@ fn tiers(doc: &Document<'_>, findings: &mut Findings) -> Resolved {
     resolved
 }
 
-/// Sorts the tiers parents first; a tier that hangs below itself becomes a root.
+/// Sorts the tiers parents first; a tier that hangs below itself, or below too many others, becomes a root.
 fn order(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findings) {
     let count = doc.tiers.len();
     let mut placed = vec![false; count];
@@ -318,6 +319,23 @@ fn order(doc: &Document<'_>, resolved: &mut Resolved, findings: &mut Findings) {
             placed[tier] = true;
             resolved.order.push(tier);
         }
+    }
+    let mut depths = vec![0; count];
+    for &at in &resolved.order {
+        let depth = resolved.parents[at].map_or(0, |above| depths[above] + 1);
+        if depth <= MAX_DEPTH {
+            depths[at] = depth;
+            continue;
+        }
+        resolved.parents[at] = None;
+        findings.add("tiers below too many others", || {
+            let tier = &doc.tiers[at];
+            let what = format!(
+                "the tier {:?} hangs below more than {MAX_DEPTH} others; it becomes a root tier",
+                tier.id
+            );
+            Finding::warning(doc.line(tier.at), what)
+        });
     }
 }
 

@@ -328,7 +328,8 @@ impl<'d> Tiers<'d> {
                     self.places[parent as usize].map(|place| TimedSpan {
                         span: self.tiers[place.tier].annotations[place.index].span,
                         timing: Timing::Parent,
-                        parent: Some(place),
+                        // A tier that became a root tier keeps its times only.
+                        parent: self.tiers[at].parent.map(|_| place),
                         millis: None,
                     })
                 }

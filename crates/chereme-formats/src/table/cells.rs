@@ -8,6 +8,12 @@ use std::borrow::Cow;
 pub(crate) const COLUMNS: usize = 4096;
 /// The most empty cells that are added to short rows of a table, in all.
 pub(crate) const PADDED: usize = 1 << 22;
+/// The most cells of a table: with their rows in a corpus they stay below 1.5 GB of memory.
+const MOST_CELLS: usize = 4_000_000;
+/// The most rows of a table.
+const MOST_ROWS: usize = 1_000_000;
+/// The longest cell, in bytes.
+const LONGEST_CELL: usize = 1 << 20;
 /// A cell with more lines than this gets a warning: a closing quote may be missing.
 const LINES: usize = 40;
 
@@ -43,6 +49,29 @@ pub enum TableError {
         lacking: usize,
         /// The number of columns of the first row.
         width: usize,
+    },
+    /// The table is larger than tables that are read whole.
+    #[error(
+        "line {line}: the table has more than {rows} rows or {cells} cells up to here; divide it into several files",
+        rows = MOST_ROWS,
+        cells = MOST_CELLS
+    )]
+    TooLarge {
+        /// The line, counted from 1.
+        line: u64,
+    },
+    /// A cell is longer than any value.
+    #[error(
+        "line {line}: the cell of column {column} has {bytes} bytes, and a value has at most {longest}; look for a quotation mark that is not closed",
+        longest = LONGEST_CELL
+    )]
+    LongCell {
+        /// The line, counted from 1.
+        line: u64,
+        /// The column, counted from 1.
+        column: usize,
+        /// The length of the cell.
+        bytes: usize,
     },
     /// Without a unit, bare numbers would be seconds, and their annotations implausibly long or late.
     #[error(
@@ -155,7 +184,20 @@ impl Cells {
         let mut header_line = 1;
         let mut rows = Vec::new();
         let mut lacking = 0usize;
-        for Row { line, cells } in super::rows::split(text, delimiter, cut, findings) {
+        let all = super::rows::split(text, delimiter, cut, MOST_CELLS, findings);
+        let mut count = 0;
+        for Row { line, cells } in all {
+            count += cells.len();
+            if count > MOST_CELLS || rows.len() >= MOST_ROWS {
+                return Err(TableError::TooLarge { line });
+            }
+            if let Some(column) = cells.iter().position(|cell| cell.len() > LONGEST_CELL) {
+                return Err(TableError::LongCell {
+                    line,
+                    bytes: cells[column].len(),
+                    column: column + 1,
+                });
+            }
             if line <= above || cells.iter().all(|cell| cell.trim().is_empty()) {
                 continue;
             }

@@ -21,7 +21,7 @@ use crate::tally::Findings;
 /// ```
 #[must_use]
 pub fn tab_rows(text: &str) -> Vec<(u64, Vec<String>)> {
-    let rows = split(text, b'\t', false, &mut Findings::default()).into_iter();
+    let rows = split(text, b'\t', false, usize::MAX, &mut Findings::default()).into_iter();
     let rows = rows.filter(|row| row.cells.iter().any(|cell| !cell.trim().is_empty()));
     rows.map(|row| (row.line, row.cells)).collect()
 }
@@ -61,12 +61,18 @@ fn is_number(cell: &str) -> bool {
 }
 
 /// Splits a text into rows; of a text that is `cut` somewhere, a row with a quotation mark that would close beyond
-/// ends the table, unless it is the first.
-pub(super) fn split(text: &str, delimiter: u8, cut: bool, findings: &mut Findings) -> Vec<Row> {
+/// ends the table, unless it is the first. No more than `most` cells are read, and the rest of their row.
+pub(super) fn split(
+    text: &str,
+    delimiter: u8,
+    cut: bool,
+    most: usize,
+    findings: &mut Findings,
+) -> Vec<Row> {
     let bytes = text.as_bytes();
     let strict = delimiter == b'\t' && !has_quoted_text(text, delimiter);
     let mut rows: Vec<Row> = Vec::new();
-    let (mut at, mut line) = (0, 1u64);
+    let (mut at, mut line, mut count) = (0, 1u64, 0);
     while let Some(&byte) = bytes.get(at) {
         if matches!(byte, b'\n' | b'\r') {
             line += u64::from(byte == b'\n');
@@ -133,7 +139,11 @@ pub(super) fn split(text: &str, delimiter: u8, cut: bool, findings: &mut Finding
             }
             at += 1;
         }
+        count += row.cells.len();
         rows.push(row);
+        if count > most {
+            break;
+        }
     }
     rows
 }
