@@ -49,6 +49,7 @@ fn main() -> ExitCode {
         Err(error) => return output::usage(&error, json, language, &actions(&words)),
     };
     let mut output = Output::new(cli.json, cli.width, language);
+    chereme_corpus::hide_handled_panics();
     chereme_corpus::on_waiting(output::waiting);
     let done = commands::run(&cli, &mut output).and_then(|code| output.finish().map(|()| code));
     match done {

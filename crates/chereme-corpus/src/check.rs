@@ -12,16 +12,18 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::Corpus;
+use crate::Store;
 use crate::annotate::messages;
 use crate::db::check as rows;
 use crate::db::motion::hex;
-use crate::db::search::State;
-use crate::db::{notations, recordings, tiers, tracks};
+use crate::db::search::{self as index_rows, State};
+use crate::db::{notations, recordings, seals, studies, tiers, tracks};
 use crate::error::{Cause, Result};
 use crate::inventories;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
 use crate::progress::{Progress, Step, Unit};
+use crate::search::index::SearchIndex;
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
 
@@ -31,12 +33,14 @@ mod tests;
 /// The result of a check.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CheckReport {
-    /// Whether no fault was found.
+    /// Whether no damage was found.
     pub ok: bool,
     /// Number of checked objects of each kind.
     pub checked: BTreeMap<&'static str, u64>,
-    /// The faults.
+    /// The damage: what is not as the program stored it.
     pub faults: Vec<Fault>,
+    /// Questions about the data: annotations and tiers that break the rules of ELAN, as they came from a file.
+    pub questions: Vec<Fault>,
     /// Descriptions of the repairs.
     pub mended: Vec<String>,
 }
@@ -44,8 +48,8 @@ pub struct CheckReport {
 /// A fault in a corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Fault {
-    /// `database`, `reference`, `block`, `movement`, `skeleton`, `inventory`, `notation`, `tier`,
-    /// `tokens`, `history` or `index`.
+    /// `database`, `reference`, `row`, `file`, `block`, `movement`, `skeleton`, `inventory`, `study`, `notation`,
+    /// `tier`, `tokens`, `history` or `index`.
     pub kind: &'static str,
     /// The place of the fault.
     pub place: String,
@@ -59,16 +63,31 @@ const BACKUP: &str = "take the file from a backup, or import the recording again
 /// The number of overlaps on one tier that are listed as separate faults; the rest are counted.
 const SHOWN_OVERLAPS: u64 = 3;
 
+/// Returns the remedy for rows that are not as they were stored.
+fn compare() -> Remedy {
+    Remedy::command(
+        "compare it with a backup; if it is right as it is now, `chereme check CORPUS --accept` keeps it so",
+    )
+}
+
+/// Returns the remedy for an index that the next search builds again.
+fn next_search() -> Remedy {
+    Remedy::choice(
+        Choice::Check,
+        "the next search builds it again; so does `chereme check CORPUS --mend`",
+    )
+}
+
 /// Returns the remedy for derived data with a fault.
 fn mend() -> Remedy {
     Remedy::choice(Choice::Check, "`chereme check CORPUS --mend` puts it right")
 }
 
 impl Corpus {
-    /// Checks everything in the corpus: the database, references, blocks and their hashes, skeletons, inventories,
-    /// notations, tier rules, tokens, history and the search index.
+    /// Checks everything in the corpus: the database, references, rows, files, blocks and their hashes, skeletons,
+    /// inventories, notations, tier rules, tokens, history and the search index. Other programs may write meanwhile.
     ///
-    /// With `mend`, derived rows (tokens, index) are built again if they are wrong.
+    /// With `mend`, wrong tokens and the search index are built again.
     ///
     /// # Errors
     /// Fails if the database cannot be read at all, or the work is stopped.
@@ -78,9 +97,19 @@ impl Corpus {
             report: &mut report,
             progress: &mut *progress,
         };
-        let connection = self.store.read();
-        let looked = looking.database(connection);
+        let looked = looking.database(self.store.read());
         looking.go_on("database", "the file", looked)?;
+        let looked = looking.index_files(&mut self.store);
+        looking.go_on("database", "search index", looked)?;
+        // One state of all rows; foreign keys cannot be switched within it, and the index not be built.
+        let reading = index_rows::begin_reading(self.store.read())?;
+        let connection: &Connection = &reading;
+        let looked = looking.index(connection, self.store.index());
+        looking.go_on("database", "search index", looked)?;
+        let looked = looking.rows(connection);
+        looking.go_on("row", "rows", looked)?;
+        let looked = looking.files(connection);
+        looking.go_on("file", "files", looked)?;
         let looked = looking.blocks(connection);
         looking.go_on("block", "blocks", looked)?;
         let looked = looking.movement(connection);
@@ -98,12 +127,9 @@ impl Corpus {
             }
             Err(error) => looking.go_on("history", "history", Err(error))?,
         }
-        let looked = self.check_index(&mut report);
-        Looking {
-            report: &mut report,
-            progress: &mut *progress,
-        }
-        .go_on("database", "search index", looked)?;
+        drop(reading);
+        let looked = looking.tokens(self.store.read());
+        looking.go_on("tier", "recordings", looked)?;
         if mend {
             let mended = self.mend(&mut report, progress);
             Looking {
@@ -116,38 +142,16 @@ impl Corpus {
         Ok(report)
     }
 
-    fn check_index(&mut self, report: &mut CheckReport) -> Result<()> {
-        let state = State::read(self.store.read())?;
-        if state.content != state.indexed && state.format != 0 {
-            report.faults.push(Fault {
-                kind: "index",
-                place: "search index".into(),
-                message: "the rows were changed without it".into(),
-                remedy: Remedy::choice(
-                    Choice::Check,
-                    "the next search builds it again; so does `chereme check CORPUS --mend`",
-                ),
-            });
-            return Ok(());
-        }
-        let (connection, index) = self.store.searchable()?;
-        let (tokens, documents) = (rows::tokens(connection)?, index.documents());
-        report.checked.insert("index documents", documents);
-        if i64::try_from(documents).ok() != Some(tokens) {
-            report.faults.push(Fault {
-                kind: "index",
-                place: "search index".into(),
-                message: format!("it holds {documents} documents for {tokens} tokens"),
-                remedy: mend(),
-            });
-        }
-        Ok(())
+    /// Takes the rows as they are now for right, such as after a change by another program.
+    ///
+    /// # Errors
+    /// Fails if the database fails.
+    pub fn accept_rows(&mut self) -> Result<()> {
+        self.store.seal_again(seals::sealed_tables())
     }
 
     fn mend(&mut self, report: &mut CheckReport, progress: &mut Progress<'_>) -> Result<()> {
-        let wrong = |kind| report.faults.iter().any(|fault| fault.kind == kind);
-        let (tokens, index) = (wrong("tokens"), wrong("index"));
-        if tokens {
+        if report.faults.iter().any(|fault| fault.kind == "tokens") {
             self.store
                 .operation_with_progress("mend", progress, |connection, progress| {
                     let inventories = inventories::load(connection)?;
@@ -162,16 +166,15 @@ impl Corpus {
                     }
                     Ok(((), "tokens derived again".to_owned()))
                 })?;
+            self.store.seal_again(["token", "token_value"])?;
             report
                 .mended
                 .push("the tokens were derived again from the tiers".to_owned());
         }
-        if index || tokens {
-            self.store.reindex(progress)?;
-            report
-                .mended
-                .push("the search index was built again".to_owned());
-        }
+        self.store.reindex(progress)?;
+        report
+            .mended
+            .push("the search index was built again".to_owned());
         report
             .faults
             .retain(|fault| !["tokens", "index"].contains(&fault.kind));
@@ -250,6 +253,77 @@ impl Looking<'_, '_> {
             let place = format!("row {row} of {table}");
             let message = format!("it refers to a row of {other} that is not there");
             self.fault("reference", place, message, BACKUP);
+        }
+        Ok(())
+    }
+
+    /// Looks at the files of the search index, and loads it unless they are wrong.
+    fn index_files(&mut self, store: &mut Store) -> Result<()> {
+        let connection = store.read();
+        let state = State::read(connection)?;
+        let damaged = index_rows::damaged_files(connection)?;
+        if state.content != state.indexed && state.format != 0 {
+            self.fault(
+                "index",
+                "search index",
+                "the rows were changed without it",
+                next_search(),
+            );
+        } else if let Some(first) = damaged.first() {
+            let message = format!("its file {first:?} is not as it was stored");
+            self.fault("index", "search index", message, next_search());
+        } else {
+            store.searchable()?;
+        }
+        Ok(())
+    }
+
+    fn index(&mut self, connection: &Connection, index: &SearchIndex) -> Result<()> {
+        if !index.is_current(connection)? {
+            return Ok(());
+        }
+        let (tokens, documents) = (rows::tokens(connection)?, index.documents());
+        self.report.checked.insert("index documents", documents);
+        if i64::try_from(documents).ok() != Some(tokens) {
+            let message = format!("it holds {documents} documents for {tokens} tokens");
+            self.fault("index", "search index", message, mend());
+        }
+        Ok(())
+    }
+
+    /// Compares all rows with their seals.
+    fn rows(&mut self, connection: &Connection) -> Result<()> {
+        for table in seals::sealed_tables() {
+            for broken in seals::broken_seals(connection, table)? {
+                self.fault("row", broken.to_string(), seals::NOT_AS_STORED, compare());
+            }
+            self.count("tables")?;
+        }
+        Ok(())
+    }
+
+    /// Compares stored files and plans of studies with their hashes.
+    fn files(&mut self, connection: &Connection) -> Result<()> {
+        for file in recordings::all_source_files(connection)? {
+            if let Err(error) = recordings::source_bytes(connection, file.id) {
+                self.fault(
+                    "file",
+                    format!("file {:?}", file.name),
+                    error.to_string(),
+                    BACKUP,
+                );
+            }
+            self.count("files")?;
+        }
+        for name in studies::names(connection)? {
+            if let Err(error) = studies::study(connection, &name) {
+                self.fault(
+                    "study",
+                    format!("study {name:?}"),
+                    error.to_string(),
+                    BACKUP,
+                );
+            }
         }
         Ok(())
     }
@@ -362,8 +436,8 @@ impl Looking<'_, '_> {
         Ok(())
     }
 
+    /// Reports what breaks the rules of tiers as questions: it came so from a file.
     fn tiers(&mut self, connection: &Connection) -> Result<()> {
-        let inventories = inventories::load(connection).unwrap_or_default();
         for recording in recordings::recordings(connection)? {
             let place = format!("recording {:?}", recording.name);
             let set = match tier_set(connection, recording.id) {
@@ -372,6 +446,14 @@ impl Looking<'_, '_> {
                     self.go_on("tier", &place, Err(error))?;
                     continue;
                 }
+            };
+            let mut ask = |message: &str, remedy: Remedy| {
+                self.report.questions.push(Fault {
+                    kind: "tier",
+                    place: place.clone(),
+                    message: messages::named(connection, message),
+                    remedy,
+                });
             };
             let mut overlaps: BTreeMap<TierId, u64> = BTreeMap::new();
             for violation in tier::check(&set) {
@@ -382,29 +464,26 @@ impl Looking<'_, '_> {
                         continue;
                     }
                 }
-                let place = format!("recording {:?}", recording.name);
-                let remedy = Remedy::command(
-                    "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end",
-                );
-                let message = messages::named(connection, &violation.to_string());
-                self.fault("tier", place, message, remedy);
+                ask(&violation.to_string(), correction(&violation));
             }
             for (tier, count) in overlaps {
-                let Some(more) = count.checked_sub(SHOWN_OVERLAPS).filter(|&more| more > 0) else {
-                    continue;
-                };
-                let place = format!("recording {:?}", recording.name);
-                let message = messages::named(
-                    connection,
-                    &format!("further overlapping annotations on {tier}: {more}"),
-                );
-                self.fault(
-                    "tier",
-                    place,
-                    message,
-                    "ELAN allows no overlap within a tier; put one of each two on another tier",
-                );
+                if let Some(more) = count.checked_sub(SHOWN_OVERLAPS).filter(|&more| more > 0) {
+                    ask(
+                        &format!("further overlapping annotations on {tier}: {more}"),
+                        "ELAN allows no overlap within a tier; put one of each two on another tier"
+                            .into(),
+                    );
+                }
             }
+        }
+        Ok(())
+    }
+
+    /// Derives the tokens of each recording on trial; each recording is read in one state.
+    fn tokens(&mut self, connection: &Connection) -> Result<()> {
+        let inventories = inventories::load(connection).unwrap_or_default();
+        for recording in recordings::recordings(connection)? {
+            let place = format!("recording {:?}", recording.name);
             let derived = rows::tried(connection, || {
                 let before = rows::changes(connection)?;
                 tokens::derive_with_progress(
@@ -416,26 +495,55 @@ impl Looking<'_, '_> {
                 )?;
                 Ok(rows::changes(connection)? - before)
             });
-            let derived = match derived {
-                Ok(derived) => derived,
-                Err(error) => {
-                    self.go_on("tier", &place, Err(error))?;
-                    continue;
-                }
-            };
-            if derived > 0 {
-                let place = format!("recording {:?}", recording.name);
-                self.fault(
+            match derived {
+                Ok(0) => {}
+                Ok(_) => self.fault(
                     "tokens",
                     place,
                     "its tokens do not agree with its tiers",
                     mend(),
-                );
+                ),
+                Err(error) => {
+                    self.go_on("tier", &place, Err(error))?;
+                    continue;
+                }
             }
             self.count("recordings")?;
         }
         Ok(())
     }
+}
+
+/// Returns what corrects a broken rule of tiers.
+fn correction(violation: &Violation) -> Remedy {
+    Remedy::command(match violation {
+        Violation::DuplicateName { .. } => {
+            "give it another name: `chereme annotate CORPUS tier TIER --name NAME --in RECORDING`"
+        }
+        Violation::MissingParentTier { .. }
+        | Violation::ParentCycle { .. }
+        | Violation::TooDeep { .. }
+        | Violation::AlignableBelowSymbolic { .. } => {
+            "correct the tiers in the file that they come from, and import it again"
+        }
+        Violation::NotInVocabulary { .. } => {
+            "correct the value: `chereme annotate CORPUS set ANNOTATION --value TEXT`"
+        }
+        Violation::ZeroLength { .. }
+        | Violation::Overlap { .. }
+        | Violation::OutsideParent { .. }
+        | Violation::Gap { .. }
+        | Violation::DerivedSpan { .. } => {
+            "correct the times: `chereme annotate CORPUS set ANNOTATION --start TIME --end TIME`"
+        }
+        Violation::MissingTier { .. }
+        | Violation::MissingParent { .. }
+        | Violation::ParentOfRoot { .. }
+        | Violation::SecondAssociation { .. }
+        | Violation::Order { .. } => {
+            "correct it in the file that it comes from and import that again, or remove it: `chereme annotate CORPUS remove ANNOTATION`"
+        }
+    })
 }
 
 /// Returns the tiers of a recording with all their annotations, for a check of the tier rules.

@@ -30,6 +30,14 @@ pub enum Error {
         /// The remedy.
         remedy: Remedy,
     },
+    /// The corpus file was moved, deleted or replaced while work was stored in it.
+    #[error("{path} was moved, deleted or replaced meanwhile; the work is saved in {rescued}")]
+    Displaced {
+        /// Where the corpus was.
+        path: PathBuf,
+        /// The whole corpus with the work, beside it.
+        rescued: PathBuf,
+    },
     /// The database refused or failed.
     #[error("the corpus database says: {0}")]
     Database(#[from] rusqlite::Error),
@@ -229,9 +237,9 @@ impl Error {
     #[must_use]
     pub fn place(&self) -> Option<String> {
         match self {
-            Self::File { path, .. } | Self::NotACorpus { path, .. } => {
-                Some(path.display().to_string())
-            }
+            Self::File { path, .. }
+            | Self::NotACorpus { path, .. }
+            | Self::Displaced { path, .. } => Some(path.display().to_string()),
             Self::Damaged { place, .. } => Some(place.clone()),
             Self::Wrong { place, .. } => place.clone(),
             Self::Query(query) => Some(format!("character {}", query.at + 1)),
@@ -265,6 +273,9 @@ impl Error {
                 _ => None,
             },
             Self::NotACorpus { remedy, .. } => Some(remedy.clone()),
+            Self::Displaced { .. } => {
+                Some("compare the two files, and give the one with the work its name".into())
+            }
             Self::Damaged { .. } => Some(Remedy::choice(
                 Choice::Check,
                 "`chereme check CORPUS` lists all damage and says how to mend it; a backup may be whole",

@@ -24,6 +24,10 @@ impl FileIdentity {
         }
     }
 
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Returns whether that file is still at its path: not deleted, moved or replaced.
     #[must_use]
     pub fn stands(&self) -> bool {
@@ -97,5 +101,59 @@ mod tests {
         assert_eq!(overview.searches.len(), 1);
         assert_eq!(overview.operations.len(), 1);
         assert!(!overview.inventories.is_empty());
+    }
+
+    #[test]
+    fn work_on_a_file_that_was_moved_or_replaced_is_saved_beside_and_not_called_done() {
+        for (trial, replacement) in [None, Some("copy"), Some("gone")].into_iter().enumerate() {
+            let folder = tempfile::tempdir().expect("a folder");
+            let mut corpus = made(folder.path());
+            let path = corpus.path().to_owned();
+            let other = folder.path().join("other.chereme");
+            drop(Corpus::create(&other, "B").expect("made"));
+            let query = crate::KeptSearch {
+                name: "second".into(),
+                query: "configuration=S".into(),
+            };
+            let is_last = |step: &crate::Step<'_>| step.task == "storing";
+            let mut hear = |step: crate::Step<'_>| {
+                if is_last(&step) {
+                    match replacement {
+                        None => std::fs::rename(&path, folder.path().join("moved.chereme")),
+                        Some("copy") => std::fs::rename(&other, &path),
+                        Some(_) => std::fs::remove_file(&path),
+                    }
+                    .expect("displaced");
+                }
+                std::ops::ControlFlow::Continue(())
+            };
+            let mut progress = crate::Progress::new(&mut hear);
+            let done =
+                corpus
+                    .store
+                    .operation_with_progress("test", &mut progress, |connection, _| {
+                        crate::db::saved_searches::insert(connection, &query)?;
+                        Ok(((), "second search".to_owned()))
+                    });
+            let Err(crate::Error::Displaced { rescued, .. }) = done else {
+                panic!("trial {trial}: {done:?}");
+            };
+            assert_eq!(rescued, folder.path().join("a.rescued.chereme"));
+            drop(corpus);
+            let saved = Corpus::open(&rescued, "A").expect("opened");
+            assert_eq!(
+                saved.overview(10).expect("read").searches.len(),
+                2,
+                "trial {trial}"
+            );
+            for ending in ["-wal", "-shm"] {
+                let left = folder.path().join(format!("a.chereme{ending}"));
+                assert!(!left.exists(), "trial {trial}: {ending}");
+            }
+            if replacement == Some("copy") {
+                let theirs = Corpus::open(&path, "A").expect("opened");
+                assert_eq!(theirs.overview(10).expect("read").searches.len(), 0);
+            }
+        }
     }
 }

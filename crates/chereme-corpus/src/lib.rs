@@ -28,6 +28,7 @@ mod export;
 mod face;
 mod file_identity;
 mod film;
+mod foreign_code;
 mod forms;
 mod hands;
 mod import;
@@ -61,6 +62,7 @@ mod suggest;
 mod tokens;
 mod track;
 mod transcribe;
+mod unfinished;
 mod values;
 pub mod words;
 
@@ -144,6 +146,7 @@ pub use face::{
 };
 pub use file_identity::FileIdentity;
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
+pub use foreign_code::hide_handled_panics;
 pub use forms::{Empty, FIELD_SETS, FormSource};
 pub use import::{
     BodyRead, Changes, ConventionRead, FileReport, FileStatus, ImportOptions, ImportReport,

@@ -10,25 +10,33 @@ use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::words::Words;
 
-/// Look for damage: database, blocks and hashes, tier rules, tokens, history, search index
+/// Look for damage: database, rows, files and blocks by their hashes, tokens, history, search index
 ///
-/// Reports every fault with its remedy; the exit code is 1 if there is any.
+/// Reports all damage with its remedy; the exit code is 1 if there is any. Annotations that break the rules of tiers are
+/// listed as questions about the data: they came so from a file.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The corpus
     corpus: PathBuf,
-    /// Rebuild derived data (tokens, search index) that are wrong
+    /// Rebuild derived data: tokens that are wrong, and the search index
     #[arg(long)]
     mend: bool,
+    /// Take the rows as they are now for right, after a change by another program
+    #[arg(long, conflicts_with = "mend")]
+    accept: bool,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCode> {
     let mut corpus = cli.open(&args.corpus)?;
+    if args.accept {
+        corpus.accept_rows()?;
+    }
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let report = corpus.check(args.mend, &mut Progress::new(&mut hear))?;
     drop(bar);
-    for fault in &report.faults {
+    let questions = report.questions.len() as u64;
+    for fault in report.faults.iter().chain(&report.questions) {
         output.line(format!(
             "{}: {}: {}",
             fault.kind,
@@ -50,6 +58,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
         true => format!("all is well: looked at {looked}"),
         false => format!("there are faults: looked at {looked}"),
     })?;
+    if questions > 0 {
+        let count = output.counted(questions, "questions");
+        output.line(format!(
+            "not damage, but against the rules of tiers: {count}"
+        ))?;
+    }
     let ok = report.ok;
     output.document(report)?;
     Ok(if ok {
@@ -63,20 +77,28 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
 pub(super) const WORDS: Words = Words {
     help: &[
         (
-            "Look for damage: database, blocks and hashes, tier rules, tokens, history, search index",
-            "Chercher les dégâts : base, blocs et sommes, règles des acteurs, occurrences, historique, index de recherche",
+            "Look for damage: database, rows, files and blocks by their hashes, tokens, history, search index",
+            "Chercher les dégâts : base, lignes, fichiers et blocs par leurs empreintes, occurrences, historique, index de recherche",
         ),
         (
-            "Rebuild derived data (tokens, search index) that are wrong",
-            "Reconstruire les données dérivées (occurrences, index de recherche) qui sont fausses",
+            "Rebuild derived data: tokens that are wrong, and the search index",
+            "Reconstruire les données dérivées : les occurrences fausses et l’index de recherche",
         ),
         (
-            "Reports every fault with its remedy; the exit code is 1 if there is any.",
-            "Donne chaque faute avec son remède ; le code de sortie est 1 s’il y en a.",
+            "Take the rows as they are now for right, after a change by another program",
+            "Tenir les lignes pour justes telles qu’elles sont, après une modification par un autre programme",
+        ),
+        (
+            "Reports all damage with its remedy; the exit code is 1 if there is any. Annotations that break the rules of tiers are listed as questions about the data: they came so from a file.",
+            "Donne tous les dégâts avec leurs remèdes ; le code de sortie est 1 s’il y en a. Les annotations contraires aux règles des acteurs sont listées comme questions sur les données : elles sont venues ainsi d’un fichier.",
         ),
     ],
     lines: &[
         ("mended: {what}", "réparé : {what}"),
+        (
+            "not damage, but against the rules of tiers: {count}",
+            "pas des dégâts, mais contraires aux règles des acteurs : {count}",
+        ),
         (
             "all is well: looked at {list}",
             "tout va bien ; vérifié : {list}",

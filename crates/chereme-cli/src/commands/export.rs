@@ -51,23 +51,34 @@ pub(crate) struct Args {
     /// Replace a file that exists already
     #[arg(long)]
     force: bool,
+    /// In a table write an apostrophe before cells that a spreadsheet would take for formulas
+    #[arg(long)]
+    spreadsheet_safe: bool,
 }
 
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     let what = what(&mut corpus, &args.what)?;
+    let options = ExportOptions {
+        force: args.force,
+        format: args.format.clone(),
+        spreadsheet_safe: args.spreadsheet_safe,
+    };
     let mut bar = Bar::new();
     let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
     let progress = &mut Progress::new(&mut hear);
     if streams::is_standard(&args.to) {
         streams::not_with_json(output.is_json())?;
-        let format = args.format.as_deref().ok_or_else(|| {
-            Error::wrong("standard output has no extension that says the format")
-                .at("-")
-                .advise("name it, as with --format csv")
-        })?;
+        if args.format.is_none() {
+            return Err(
+                Error::wrong("standard output has no extension that says the format")
+                    .at("-")
+                    .advise("name it, as with --format csv")
+                    .into(),
+            );
+        }
         let mut out = streams::Document::new();
-        let notes = corpus.export_stream(&what, format, &mut out, progress)?;
+        let notes = corpus.export_stream(&what, options, &mut out, progress)?;
         io::Write::flush(&mut out)?;
         drop(bar);
         for note in notes {
@@ -76,10 +87,6 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.silence();
         return Ok(());
     }
-    let options = ExportOptions {
-        force: args.force,
-        format: args.format.clone(),
-    };
     let report = corpus.export(&what, &args.to, &options, progress)?;
     drop(bar);
     match report.files.as_slice() {

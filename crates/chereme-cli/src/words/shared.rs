@@ -38,6 +38,10 @@ pub(super) const SHARED: Words = Words {
             "Replace a file that exists already",
             "Remplacer un fichier qui existe déjà",
         ),
+        (
+            "In a table write an apostrophe before cells that a spreadsheet would take for formulas",
+            "Dans un tableau, écrire une apostrophe devant les cellules qu’un tableur prendrait pour des formules",
+        ),
         ("The signer who moves", "Le signeur qui bouge"),
         (
             "Replace a picture that exists already",

@@ -1,6 +1,6 @@
 //! A recording whose annotations are being changed: its clock, its tiers, and the rows near a change.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_formats::table::annotations::Moment;
 use chereme_motion::{Instant, Rate, Span};
@@ -180,9 +180,11 @@ impl Scope {
             .filter(|row| row.tier_id == tier && self.has_tiers_below(tier))
             .map(|row| row.id)
             .collect();
+        // In a damaged file annotations may be their own parents.
+        let mut seen: BTreeSet<i64> = open.iter().copied().collect();
         while let Some(parent) = open.pop() {
             for child in tier_rows::children(connection, parent)? {
-                if self.has_tiers_below(child.tier_id) {
+                if self.has_tiers_below(child.tier_id) && seen.insert(child.id) {
                     open.push(child.id);
                 }
                 rows.insert(child.id, child);

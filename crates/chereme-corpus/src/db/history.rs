@@ -15,6 +15,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::damaged;
+use super::seals::SealChanges;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use tracked::{TRACKED, columns, from_image, row_image};
@@ -98,34 +99,40 @@ pub(super) fn finish(
 ) -> Result<()> {
     let mut changes = 0i64;
     let (mut part, mut lines) = (0i64, Vec::new());
+    let mut seals = SealChanges::default();
     let mut statement = connection
         .prepare_cached("SELECT tbl, kind, before, after, refs FROM temp.change ORDER BY seq")?;
     let mut rows = statement.query([])?;
     while let Some(row) = rows.next()? {
-        let text = |i: usize| -> rusqlite::Result<String> {
-            Ok(row
-                .get::<_, Option<String>>(i)?
-                .unwrap_or_else(|| "null".to_owned()))
-        };
-        let line = format!(
-            "[\"{}\",\"{}\",{},{},{}]\n",
-            row.get::<_, String>(0)?,
-            row.get::<_, String>(1)?,
-            text(2)?,
-            text(3)?,
-            text(4)?
-        );
+        let text =
+            |i: usize| -> rusqlite::Result<Option<&str>> { Ok(row.get_ref(i)?.as_str_or_null()?) };
+        let table = text(0)?.unwrap_or_default();
+        let images = [text(2)?, text(3)?];
+        for image in images.into_iter().flatten() {
+            seals.turn_row(table, image);
+        }
+        let [before, after] = images.map(|image| image.unwrap_or("null"));
+        let (kind, refs) = (text(1)?.unwrap_or_default(), text(4)?.unwrap_or("null"));
+        let line = format!("[\"{table}\",\"{kind}\",{before},{after},{refs}]\n");
         lines.extend_from_slice(line.as_bytes());
         changes += 1;
         step(progress, "history", changes)?;
         if lines.len() >= PART_BYTES {
-            write_part(connection, operation, part, &lines)?;
+            seals.turn_part(
+                operation,
+                part,
+                &write_part(connection, operation, part, &lines)?,
+            );
             part += 1;
             lines.clear();
         }
     }
     if !lines.is_empty() {
-        write_part(connection, operation, part, &lines)?;
+        seals.turn_part(
+            operation,
+            part,
+            &write_part(connection, operation, part, &lines)?,
+        );
     }
     if changes == 0 {
         connection.execute("DELETE FROM operation WHERE id = ?1", [operation])?;
@@ -134,6 +141,7 @@ pub(super) fn finish(
             "UPDATE operation SET summary = ?2, changes = ?3 WHERE id = ?1",
             params![operation, summary, changes],
         )?;
+        seals.store(connection, operation)?;
     }
     Ok(())
 }
@@ -151,14 +159,15 @@ fn step(progress: &mut Progress<'_>, task: &str, done: i64) -> Result<()> {
     })
 }
 
-fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> Result<()> {
+/// Stores lines as a part of a changeset, and returns its bytes.
+fn write_part(connection: &Connection, operation: i64, part: i64, lines: &[u8]) -> Result<Vec<u8>> {
     let data = zstd::encode_all(lines, 3)
         .map_err(|error| damaged(format!("changeset {operation}"), error.to_string()))?;
     connection.execute(
         "INSERT INTO changeset (operation_id, part, data) VALUES (?1, ?2, ?3)",
         params![operation, part, data],
     )?;
-    Ok(())
+    Ok(data)
 }
 
 pub(super) fn undo(

@@ -24,6 +24,7 @@ pub(crate) mod recordings;
 mod roles;
 pub(crate) mod rows;
 pub(crate) mod saved_searches;
+pub(crate) mod seals;
 pub(crate) mod search;
 pub(crate) mod signs;
 pub(crate) mod spans;
@@ -38,7 +39,9 @@ use std::time::Duration;
 use rusqlite::{Connection, TransactionBehavior};
 
 use crate::error::{Error, Result};
+use crate::file_identity::FileIdentity;
 use crate::progress::{Progress, Step, Unit, unheard};
+use crate::unfinished::Unfinished;
 
 pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
@@ -64,8 +67,10 @@ pub(crate) struct Store<D: Derived> {
     author: String,
     index: D,
     upgrade: Option<Upgrade>,
+    /// The file that was opened; it goes after the connection.
+    place: OpenPlace,
     /// The copy that stands for a file of an older version; it goes after the connection.
-    _copy: Option<open::Making>,
+    _copy: Option<Unfinished>,
 }
 
 impl<D: Derived> Store<D> {
@@ -99,10 +104,11 @@ impl<D: Derived> Store<D> {
 
     fn ready(connection: Connection, path: &Path, author: &str) -> Result<Self> {
         history::record_changes(&connection)?;
-        let (path, author) = (path.to_owned(), author.to_owned());
+        let (place, author) = (OpenPlace(FileIdentity::of(path)), author.to_owned());
         Ok(Self {
             connection,
-            path,
+            path: path.to_owned(),
+            place,
             author,
             index: D::default(),
             upgrade: None,
@@ -185,6 +191,21 @@ impl<D: Derived> Store<D> {
         history::check(&self.connection, progress)
     }
 
+    /// Returns the search index as it was loaded last.
+    pub(crate) fn index(&self) -> &D {
+        &self.index
+    }
+
+    /// Computes the seals of tables from their rows as they are now.
+    pub(crate) fn seal_again(
+        &mut self,
+        tables: impl IntoIterator<Item = &'static str>,
+    ) -> Result<()> {
+        let transaction = search::begin(&self.connection)?;
+        seals::seal_tables(&transaction, tables)?;
+        Ok(transaction.commit()?)
+    }
+
     /// Builds the search index again from the rows.
     pub(crate) fn reindex(&mut self, progress: &mut Progress<'_>) -> Result<()> {
         let transaction = self
@@ -227,7 +248,39 @@ impl<D: Derived> Store<D> {
         if done.is_err() {
             self.index = D::default();
         }
-        done.map_err(|error| error.of_file(&self.path))
+        let value = done.map_err(|error| error.of_file(&self.path))?;
+        if self.place.0.stands() {
+            return Ok(value);
+        }
+        // What is stored lies in a file that the path no longer names.
+        Err(Error::Displaced {
+            path: self.path.clone(),
+            rescued: open::copy_beside(&self.connection, &self.path, "rescued")?,
+        })
+    }
+}
+
+/// The file of an open corpus.
+struct OpenPlace(FileIdentity);
+
+impl Drop for OpenPlace {
+    /// Removes the emptied companions of a file that is not at its path any more, so that none is taken for one of the
+    /// file that is there now.
+    fn drop(&mut self) {
+        if self.0.stands() {
+            return;
+        }
+        let beside = |ending: &str| {
+            let mut name = self.0.path().as_os_str().to_owned();
+            name.push(ending);
+            PathBuf::from(name)
+        };
+        let log = beside("-wal");
+        if log.metadata().is_ok_and(|log| log.len() == 0) {
+            // A failure is harmless: an empty log changes nothing.
+            drop(std::fs::remove_file(log));
+            drop(std::fs::remove_file(beside("-shm")));
+        }
     }
 }
 

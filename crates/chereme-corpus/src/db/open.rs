@@ -10,16 +10,16 @@ use chereme_sign::{Choice, Remedy};
 use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
-use uuid::Uuid;
 
-use super::{damaged, roles, upgrade};
+use super::{damaged, roles, seals, upgrade};
 use crate::error::{Error, Result};
+use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const STEPS: [&str; 12] = [
+const STEPS: [&str; 13] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
@@ -32,6 +32,7 @@ const STEPS: [&str; 12] = [
     include_str!("../../../../schema/sql/0010_studies.sql"),
     include_str!("../../../../schema/sql/0011_consent.sql"),
     include_str!("../../../../schema/sql/0012_mapping.sql"),
+    include_str!("../../../../schema/sql/0013_seals.sql"),
 ];
 
 /// The schema version that this code writes.
@@ -57,10 +58,11 @@ pub(super) fn create(
     if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
         return Err(Error::file(folder, ErrorKind::NotFound.into()));
     }
-    let making = Making::beside(path);
+    remove_leftovers(path);
+    let making = Unfinished::file(path).map_err(|error| Error::file(path, error))?;
     // The temporary name says nothing to the caller.
-    make(&making.0, fill).map_err(|error| error.of_file(path))?;
-    making.publish(path)?;
+    make(making.path(), fill).map_err(|error| error.of_file(path))?;
+    publish(&making, path)?;
     drop(making);
     Ok(open(path)?.0)
 }
@@ -71,12 +73,12 @@ pub(super) fn copy(connection: &Connection, path: &Path) -> Result<()> {
     if path.exists() {
         return Err(Error::file(path, ErrorKind::AlreadyExists.into()));
     }
-    let making = Making::beside(path);
-    super::dump::copy(connection, &making.0)?;
-    let copy = Connection::open(&making.0)?;
+    let making = Unfinished::file(path).map_err(|error| Error::file(path, error))?;
+    super::dump::copy(connection, making.path())?;
+    let copy = Connection::open(making.path())?;
     copy.pragma_update(None, "journal_mode", "WAL")?;
     copy.close().map_err(|(_, error)| error)?;
-    making.publish(path)
+    publish(&making, path)
 }
 
 fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()> {
@@ -92,37 +94,16 @@ fn make(path: &Path, fill: impl FnOnce(&Connection) -> Result<()>) -> Result<()>
     Ok(())
 }
 
-/// A corpus under construction, under a temporary name; the file is removed if the work fails.
-pub(super) struct Making(PathBuf);
-
-impl Making {
-    pub(super) fn beside(path: &Path) -> Self {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        Self(path.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple())))
-    }
-
-    /// Gives the file its final name if that is free: a link never replaces an existing file.
-    fn publish(&self, path: &Path) -> Result<()> {
-        let published = match fs::hard_link(&self.0, path) {
-            // Some file systems do not support links.
-            Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
-                fs::rename(&self.0, path)
-            }
-            other => other,
-        };
-        published.map_err(|error| Error::file(path, error))
-    }
-}
-
-impl Drop for Making {
-    fn drop(&mut self) {
-        for end in ["", "-wal", "-shm"] {
-            let mut name = self.0.clone().into_os_string();
-            name.push(end);
-            // A missing file needs no removal.
-            let _ = fs::remove_file(name);
+/// Gives a complete file its final name if that is free: a link never replaces an existing file.
+fn publish(making: &Unfinished, path: &Path) -> Result<()> {
+    let published = match fs::hard_link(making.path(), path) {
+        // Some file systems do not support links.
+        Err(error) if error.kind() != ErrorKind::AlreadyExists && !path.exists() => {
+            making.rename(path)
         }
-    }
+        other => other,
+    };
+    published.map_err(|error| Error::file(path, error))
 }
 
 /// Returns the remedy for a file that is no corpus.
@@ -232,10 +213,11 @@ pub struct Upgrade {
 
 /// Opens the file; one of an older version is copied beside itself, and upgraded.
 pub(super) fn open(path: &Path) -> Result<(Connection, Option<Upgrade>)> {
+    remove_leftovers(path);
     let (mut connection, from) = checked(path)?;
     let mut upgrade = None;
     if from < SCHEMA_VERSION {
-        let kept = keep(&connection, path, from)?;
+        let kept = copy_beside(&connection, path, &format!("version-{from}"))?;
         raise(&mut connection, |_| Ok(())).map_err(|error| error.of_file(path))?;
         upgrade = Some(Upgrade {
             from,
@@ -249,32 +231,32 @@ pub(super) fn open(path: &Path) -> Result<(Connection, Option<Upgrade>)> {
 
 /// Opens somebody else's file, which stays as it is: one of an older version is copied beside the file `own`, and the
 /// copy is upgraded; it is removed with the second value.
-pub(super) fn open_unchanged(path: &Path, own: &Path) -> Result<(Connection, Option<Making>)> {
+pub(super) fn open_unchanged(path: &Path, own: &Path) -> Result<(Connection, Option<Unfinished>)> {
     let (connection, version) = checked(path)?;
     if version >= SCHEMA_VERSION {
         finish(&connection, path)?;
         return Ok((connection, None));
     }
-    let making = Making::beside(own);
-    super::dump::copy(&connection, &making.0).map_err(|error| error.of_file(own))?;
+    let making = Unfinished::file(own).map_err(|error| Error::file(own, error))?;
+    super::dump::copy(&connection, making.path()).map_err(|error| error.of_file(own))?;
     drop(connection);
-    let mut copy = connect(&making.0)?;
+    let mut copy = connect(making.path())?;
     configure(&mut copy)?;
     raise(&mut copy, |_| Ok(()))?;
     finish(&copy, path)?;
     Ok((copy, Some(making)))
 }
 
-/// Copies a file of an older version beside itself, under a free name with its version, and returns that.
-fn keep(connection: &Connection, path: &Path, version: i32) -> Result<PathBuf> {
+/// Copies a file beside itself, under a free name with a mark such as `version-3`, and returns that.
+pub(super) fn copy_beside(connection: &Connection, path: &Path, mark: &str) -> Result<PathBuf> {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let ending = path.extension().map(|it| it.to_string_lossy());
     let ending = ending.map_or(String::new(), |it| format!(".{it}"));
-    let mut kept = path.with_file_name(format!("{stem}.version-{version}{ending}"));
+    let mut kept = path.with_file_name(format!("{stem}.{mark}{ending}"));
     let mut count = 1;
     while kept.exists() {
         count += 1;
-        kept = path.with_file_name(format!("{stem}.version-{version} ({count}){ending}"));
+        kept = path.with_file_name(format!("{stem}.{mark} ({count}){ending}"));
     }
     copy(connection, &kept).map_err(|error| error.of_file(path))?;
     Ok(kept)
@@ -451,6 +433,7 @@ fn take_steps(
     }
     roles::add_missing(&transaction)?;
     fill(&transaction)?;
+    seals::seal_tables(&transaction, seals::sealed_tables())?;
     let broken = broken_references(&transaction)?;
     if broken > broken_before {
         let reason = format!("its upgrade would break {broken} references between rows");

@@ -8,9 +8,11 @@ use chereme_sign::Remedy;
 use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 use serde_json::json;
+use sha2::{Digest as _, Sha256};
 
 use super::columns::{Col, Origin, word};
 use super::damaged;
+use super::motion::hex;
 use crate::error::{Error, Result};
 
 const LARGEST_SOURCE: u64 = 1 << 30;
@@ -371,16 +373,20 @@ pub(crate) fn source_mapping(connection: &Connection, id: i64) -> Result<Option<
     read.map_err(|error| damaged(format!("source_file {id}"), error.to_string()))
 }
 
-/// Returns the bytes of a stored file.
+/// Returns the bytes of a stored file, which match its hash.
 pub(crate) fn source_bytes(connection: &Connection, id: i64) -> Result<Option<Vec<u8>>> {
-    let data: Option<Vec<u8>> = connection
-        .prepare_cached("SELECT data FROM source_file WHERE id = ?1")?
-        .query_row([id], |row| row.get(0))?;
+    let (data, name, hash): (Option<Vec<u8>>, String, String) = connection
+        .prepare_cached("SELECT data, name, hash FROM source_file WHERE id = ?1")?
+        .query_row([id], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?;
     let Some(data) = data else { return Ok(None) };
+    let fault = |reason: String| damaged(format!("the stored file {name:?}"), reason);
     let mut bytes = Vec::new();
     let read = zstd::Decoder::new(data.as_slice())
         .and_then(|reader| reader.take(LARGEST_SOURCE).read_to_end(&mut bytes));
-    read.map_err(|error| damaged(format!("source_file {id}"), error.to_string()))?;
+    read.map_err(|error| fault(error.to_string()))?;
+    if hex(&Sha256::digest(&bytes)) != hash {
+        return Err(fault("its bytes do not match its hash".to_owned()));
+    }
     Ok(Some(bytes))
 }
 

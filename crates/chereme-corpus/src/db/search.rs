@@ -6,7 +6,7 @@ pub(crate) mod terms;
 
 use rusqlite::{Connection, Transaction, TransactionBehavior, params};
 
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 pub(crate) use documents::{TokenDocument, each};
 
@@ -88,21 +88,43 @@ pub(crate) fn file_names(connection: &Connection) -> Result<Vec<String>> {
     Ok(names)
 }
 
-/// Returns a file of the index.
+/// Returns a file of the index as it was stored.
+///
+/// # Errors
+/// [`Error::Index`] if its bytes do not match their checksum.
 pub(crate) fn file(connection: &Connection, path: &str) -> Result<Vec<u8>> {
-    Ok(connection
-        .prepare_cached("SELECT data FROM search_file WHERE path = ?1")?
-        .query_row([path], |row| row.get(0))?)
+    let (data, checksum): (Vec<u8>, u32) = connection
+        .prepare_cached("SELECT data, checksum FROM search_file WHERE path = ?1")?
+        .query_row([path], |row| Ok((row.get(0)?, row.get(1)?)))?;
+    if crc32fast::hash(&data) != checksum {
+        let reason = format!("its file {path:?} is not as it was stored");
+        return Err(Error::Index(reason.into()));
+    }
+    Ok(data)
+}
+
+/// Returns the names of files whose bytes do not match their checksum.
+pub(crate) fn damaged_files(connection: &Connection) -> Result<Vec<String>> {
+    let mut statement = connection.prepare("SELECT path, data, checksum FROM search_file")?;
+    let mut rows = statement.query([])?;
+    let mut damaged = Vec::new();
+    while let Some(row) = rows.next()? {
+        let data = row.get_ref(1)?.as_blob().map_err(rusqlite::Error::from)?;
+        if i64::from(crc32fast::hash(data)) != row.get::<_, i64>(2)? {
+            damaged.push(row.get(0)?);
+        }
+    }
+    Ok(damaged)
 }
 
 /// Writes a file of the index.
 pub(crate) fn write_file(connection: &Connection, path: &str, data: &[u8]) -> Result<()> {
     connection
         .prepare_cached(
-            "INSERT INTO search_file (path, data) VALUES (?1, ?2)
-             ON CONFLICT (path) DO UPDATE SET data = excluded.data",
+            "INSERT INTO search_file (path, data, checksum) VALUES (?1, ?2, ?3)
+             ON CONFLICT (path) DO UPDATE SET data = excluded.data, checksum = excluded.checksum",
         )?
-        .execute(params![path, data])?;
+        .execute(params![path, data, crc32fast::hash(data)])?;
     Ok(())
 }
 

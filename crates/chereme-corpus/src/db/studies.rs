@@ -1,7 +1,10 @@
 //! Rows of perceptual studies, their participants and answers.
 
 use rusqlite::{Connection, OptionalExtension, params};
+use sha2::{Digest as _, Sha256};
 
+use super::damaged;
+use super::motion::hex;
 use crate::error::Result;
 
 /// A study as stored.
@@ -10,6 +13,12 @@ pub(crate) struct StudyRow {
     /// The plan as JSON.
     pub(crate) plan: String,
     pub(crate) plan_sha256: String,
+}
+
+impl StudyRow {
+    fn is_whole(&self) -> bool {
+        hex(&Sha256::digest(self.plan.as_bytes())) == self.plan_sha256
+    }
 }
 
 /// A participant as stored, without the answers; the last three are JSON.
@@ -64,7 +73,13 @@ pub(crate) fn study(connection: &Connection, name: &str) -> Result<Option<(i64, 
             Ok((row.get(0)?, it))
         })
         .optional()?;
-    Ok(found)
+    match found {
+        Some((_, study)) if !study.is_whole() => Err(damaged(
+            format!("the study {name:?}"),
+            "its plan does not match the hash that names it",
+        )),
+        found => Ok(found),
+    }
 }
 
 /// Returns the row number of a study with that plan.

@@ -30,6 +30,23 @@ type Column = (
     Option<Phase>,
 );
 
+/// How a table is written.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct TableForm {
+    pub(super) delimiter: u8,
+    /// Whether cells that a spreadsheet would take for formulas get an apostrophe before them.
+    pub(super) is_spreadsheet_safe: bool,
+}
+
+impl TableForm {
+    pub(super) fn new(delimiter: u8) -> Self {
+        Self {
+            delimiter,
+            is_spreadsheet_safe: false,
+        }
+    }
+}
+
 const FIXED: [&str; 9] = [
     "token",
     "gloss",
@@ -46,7 +63,7 @@ const FIXED: [&str; 9] = [
 pub(super) fn tokens(
     connection: &Connection,
     tokens: &[i64],
-    delimiter: u8,
+    form: TableForm,
     out: &mut dyn Write,
     notes: &mut Vec<String>,
     progress: &mut Progress<'_>,
@@ -90,7 +107,7 @@ pub(super) fn tokens(
             counted(unclear as u64, "values")
         ));
     }
-    let mut table = table(delimiter, out);
+    let mut table = Table::new(form, out);
     let titles = FIXED.iter().map(|title| (*title).to_owned());
     let translations = languages
         .iter()
@@ -101,7 +118,7 @@ pub(super) fn tokens(
     let titles: Vec<String> = titles.collect();
     named.retain(|name| !titles.contains(name));
     let titles = titles.into_iter().chain(named.iter().cloned());
-    table.write_record(titles).map_err(fault)?;
+    table.write_record(titles)?;
     for (part, ids) in tokens.chunks(signs::AT_ONCE).enumerate() {
         let rows = signs::tokens(connection, ids)?;
         let values = signs::values_of(connection, ids)?;
@@ -136,7 +153,7 @@ pub(super) fn tokens(
                 let found = own.iter().find(|it| it.name == *name);
                 found.map_or_else(String::new, |it| it.text.clone())
             }));
-            table.write_record(row).map_err(fault)?;
+            table.write_record(row)?;
         }
         report(
             progress,
@@ -144,19 +161,19 @@ pub(super) fn tokens(
             tokens.len() * 2,
         )?;
     }
-    table.flush().map_err(|error| fault(error.into()))
+    table.finish()
 }
 
 /// Writes the annotations of a tier as a table of changes; applied unchanged, it leaves the tier as it is.
 pub(super) fn annotations(
     connection: &Connection,
     tier: i64,
-    delimiter: u8,
+    form: TableForm,
     out: &mut dyn Write,
 ) -> Result<()> {
     let tier = tiers::tier(connection, tier)?;
     let recording = recordings::recording(connection, tier.recording_id)?;
-    let mut table = table(delimiter, out);
+    let mut table = Table::new(form, out);
     let titles = [
         "recording",
         "tier",
@@ -167,7 +184,7 @@ pub(super) fn annotations(
         "id",
         "parent",
     ];
-    table.write_record(titles).map_err(fault)?;
+    table.write_record(titles)?;
     let symbolic = tier.stereotype.is_some_and(|it| !it.is_alignable());
     for row in tiers::annotations(connection, tier.id)? {
         let time = |micros| {
@@ -184,24 +201,55 @@ pub(super) fn annotations(
             .unwrap_or_default();
         let id = format!("annotation:{}", row.id);
         let (start, end) = (time(row.start_us), time(row.end_us));
-        table
-            .write_record([
-                &recording.name,
-                &tier.name,
-                &start,
-                &end,
-                value,
-                "set",
-                &id,
-                &parent,
-            ])
-            .map_err(fault)?;
+        table.write_record([
+            &recording.name,
+            &tier.name,
+            &start,
+            &end,
+            value,
+            "set",
+            &id,
+            &parent,
+        ])?;
     }
-    table.flush().map_err(|error| fault(error.into()))
+    table.finish()
 }
 
-fn table(delimiter: u8, out: &mut dyn Write) -> Writer<&mut dyn Write> {
-    WriterBuilder::new().delimiter(delimiter).from_writer(out)
+struct Table<'o> {
+    writer: Writer<&'o mut dyn Write>,
+    is_spreadsheet_safe: bool,
+}
+
+impl<'o> Table<'o> {
+    fn new(form: TableForm, out: &'o mut dyn Write) -> Self {
+        Self {
+            writer: WriterBuilder::new()
+                .delimiter(form.delimiter)
+                .from_writer(out),
+            is_spreadsheet_safe: form.is_spreadsheet_safe,
+        }
+    }
+
+    fn write_record<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> Result<()> {
+        for cell in cells {
+            let cell = cell.as_ref();
+            let written = match self.is_spreadsheet_safe && is_formula(cell) {
+                true => self.writer.write_field(format!("'{cell}")),
+                false => self.writer.write_field(cell),
+            };
+            written.map_err(fault)?;
+        }
+        self.writer.write_record(None::<&[u8]>).map_err(fault)
+    }
+
+    fn finish(mut self) -> Result<()> {
+        self.writer.flush().map_err(|error| fault(error.into()))
+    }
+}
+
+/// Returns whether a spreadsheet may take a cell for a formula; numbers are none.
+fn is_formula(cell: &str) -> bool {
+    cell.starts_with(['=', '+', '-', '@', '\t', '\r']) && cell.parse::<f64>().is_err()
 }
 
 fn fault(error: ::csv::Error) -> Error {

@@ -21,6 +21,7 @@ use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{self, TrackKind};
+use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// The guide to the folder.
 const ABOUT: &str = include_str!("enriched.md");
@@ -39,23 +40,24 @@ pub(super) fn write(
         .advise("choose another name, or move the existing one away"));
     }
     super::check_folder(to)?;
-    let part = super::unfinished(to);
+    remove_leftovers(to);
+    let part = Unfinished::folder(to).map_err(|error| Error::file(to, error))?;
     let folder = Folder {
-        root: part.clone(),
+        root: part.path().to_owned(),
         files: Vec::new(),
     };
     let done = folder.fill(connection, progress);
     match done {
         Ok(files) => {
-            fs::rename(&part, to).map_err(|error| Error::file(to, error))?;
+            part.rename(to).map_err(|error| Error::file(to, error))?;
             Ok(files.into_iter().map(|file| to.join(file)).collect())
         }
         Err(error) => {
-            let _ = fs::remove_dir_all(&part);
+            let part = part.path();
             Err(match error {
                 // The temporary name says nothing to the caller.
-                Error::File { path, source } if path.starts_with(&part) => {
-                    let inner = path.strip_prefix(&part).unwrap_or(&path);
+                Error::File { path, source } if path.starts_with(part) => {
+                    let inner = path.strip_prefix(part).unwrap_or(&path);
                     Error::file(to.join(inner), source)
                 }
                 other => other,

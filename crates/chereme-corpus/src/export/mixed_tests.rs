@@ -151,3 +151,32 @@ fn exported_curves_are_read_again_with_their_names_times_and_numbers() {
         assert_eq!(recordings.expect("listed").rows[0]["name"], "take");
     }
 }
+
+#[test]
+fn cells_that_spreadsheets_take_for_formulas_get_an_apostrophe_on_request() {
+    let mut place = Place::new();
+    let lexicon = "gloss,Handshape,Remark\n=HYPERLINK(1),B,-0.5\n@SUM(A1),5,+1\n-x,S,plain\nCHAT,V,\"\t=1\"\n";
+    let file = place.file("lexicon.csv", lexicon.as_bytes());
+    let corpus = place.corpus(&[file]);
+    let table = |spreadsheet_safe: bool, format: &str| {
+        let options = ExportOptions {
+            spreadsheet_safe,
+            ..ExportOptions::from(format)
+        };
+        let (mut out, mut hear) = (Vec::new(), unheard);
+        let progress = &mut Progress::new(&mut hear);
+        let done = corpus.export_stream(&ExportWhat::All, options, &mut out, progress);
+        done.map(|_| String::from_utf8(out).expect("text"))
+    };
+    let plain = table(false, "csv").expect("exported");
+    assert!(
+        plain.contains(",=HYPERLINK(1),") && !plain.contains('\''),
+        "{plain}"
+    );
+    let safe = table(true, "csv").expect("exported");
+    for cell in [",'=HYPERLINK(1),", ",'@SUM(A1),", ",'-x,", ",-0.5", ",+1"] {
+        assert!(safe.contains(cell), "{cell} in {safe}");
+    }
+    let error = table(true, "hns").expect_err("no table").to_string();
+    assert!(error.contains("only a table"), "{error}");
+}

@@ -19,9 +19,10 @@ mod subtitles;
 #[cfg(test)]
 mod tests;
 
+use csv::TableForm;
 pub(crate) use csv::compound;
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::io::{self, BufWriter, Read, Write};
 use std::path::{Path, PathBuf};
 
@@ -30,17 +31,17 @@ use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
 use sha2::{Digest, Sha256};
-use uuid::Uuid;
 
 use crate::Corpus;
 use crate::address::{self, Address, Name, Stretch};
 use crate::curves;
 use crate::db::motion::hex;
 use crate::db::search as rows;
-use crate::db::{list, recordings, signs, tiers};
+use crate::db::{list, recordings, seals, signs, tiers};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
 use crate::track::TrackKind;
+use crate::unfinished::{Unfinished, remove_leftovers};
 use crate::values;
 use crate::words::counted;
 use long::Long;
@@ -68,6 +69,18 @@ pub struct ExportOptions {
     /// The format, as its extension without the dot, such as `bvh` or `curves.csv`. If it is given, a name without an
     /// extension is a folder with a file for each recording or token; otherwise the extension determines the format.
     pub format: Option<String>,
+    /// Whether cells of a table that a spreadsheet would take for formulas get an apostrophe before them.
+    pub spreadsheet_safe: bool,
+}
+
+impl From<&str> for ExportOptions {
+    /// Returns the options for a format alone.
+    fn from(format: &str) -> Self {
+        Self {
+            format: Some(format.to_owned()),
+            ..Self::default()
+        }
+    }
 }
 
 /// The result of an export.
@@ -144,6 +157,10 @@ impl Corpus {
             .map(|text| text.to_string_lossy().to_lowercase());
         let mut report = ExportReport::default();
         let form = options.format.as_deref().map(named).transpose()?;
+        let form = match form {
+            Some((format, extension)) => Some((format.fit_for(options)?, extension)),
+            None => None,
+        };
         match (extension.as_deref(), what) {
             (None, _) if let Some((format, extension)) = form => {
                 let reading = rows::begin_reading(connection)?;
@@ -151,6 +168,7 @@ impl Corpus {
                 return several::write(&reading, what, form, to, options, progress);
             }
             (None, ExportWhat::All) => {
+                report.notes = damaged_rows(connection)?;
                 let files = enriched::write(connection, to, progress)?;
                 report.files = files.into_iter().map(exported).collect::<Result<_>>()?;
             }
@@ -174,7 +192,8 @@ impl Corpus {
                     }
                     Some((format, _)) => format,
                     None => by_name.ok_or_else(|| unknown(to, extension))?,
-                };
+                }
+                .fit_for(options)?;
                 let file = whole(to, options.force, &mut |out| {
                     let notes = &mut report.notes;
                     write_file(&reading, what, format, out, notes, progress)
@@ -185,7 +204,7 @@ impl Corpus {
         Ok(report)
     }
 
-    /// Writes a part of the corpus to `out` in the format named `format`, such as `bvh`, and returns notes for the
+    /// Writes a part of the corpus to `out` in the format that the options name, and returns notes for the
     /// reader of the output.
     ///
     /// # Errors
@@ -193,11 +212,13 @@ impl Corpus {
     pub fn export_stream(
         &self,
         what: &ExportWhat,
-        format: &str,
+        options: impl Into<ExportOptions>,
         out: &mut dyn Write,
         progress: &mut Progress<'_>,
     ) -> Result<Vec<String>> {
-        let (format, _) = named(format)?;
+        let options = options.into();
+        let (format, _) = named(options.format.as_deref().unwrap_or_default())?;
+        let format = format.fit_for(&options)?;
         let reading = rows::begin_reading(self.store.read())?;
         let mut notes = Vec::new();
         write_file(&reading, what, format, out, &mut notes, progress)?;
@@ -243,8 +264,8 @@ fn unknown(to: &Path, extension: &str) -> Error {
 /// A format of single files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Format {
-    /// A table with this separator.
-    Table(u8),
+    /// A table of tokens or annotations.
+    Table(TableForm),
     /// A table of curves with this separator.
     Curves(u8),
     Eaf,
@@ -266,8 +287,8 @@ enum Format {
 impl Format {
     fn of(extension: &str) -> Option<Self> {
         match extension {
-            "csv" => Some(Self::Table(b',')),
-            "tsv" => Some(Self::Table(b'\t')),
+            "csv" => Some(Self::Table(TableForm::new(b','))),
+            "tsv" => Some(Self::Table(TableForm::new(b'\t'))),
             "eaf" => Some(Self::Eaf),
             "bvh" => Some(Self::Bvh),
             "json" => Some(Self::Json),
@@ -286,11 +307,26 @@ impl Format {
         }
     }
 
+    /// Returns the format with the options that change what it writes.
+    fn fit_for(self, options: &ExportOptions) -> Result<Self> {
+        match self {
+            Self::Table(form) => Ok(Self::Table(TableForm {
+                is_spreadsheet_safe: options.spreadsheet_safe,
+                ..form
+            })),
+            _ if options.spreadsheet_safe => Err(Error::wrong(
+                "only a table of tokens or annotations is written for spreadsheets",
+            )
+            .advise("end the name in .csv or .tsv, or leave --spreadsheet-safe out")),
+            other => Ok(other),
+        }
+    }
+
     /// Returns the variant of a format that the extension before the last one selects, such as that of `x.curves.csv`.
     fn within(self, inner: &str) -> Self {
         match (self, inner) {
-            (Self::Table(delimiter), "curves") => Self::Curves(delimiter),
-            (Self::Table(delimiter), "markers") => Self::Markers(delimiter),
+            (Self::Table(form), "curves") => Self::Curves(form.delimiter),
+            (Self::Table(form), "markers") => Self::Markers(form.delimiter),
             (Self::Notation(notation::Form::Text), "elan") => Self::ElanTable,
             (Self::Parquet(_), inner) => Self::Parquet(Long::of(inner)),
             (other, _) => other,
@@ -327,6 +363,7 @@ fn write_file(
     notes: &mut Vec<String>,
     progress: &mut Progress<'_>,
 ) -> Result<()> {
+    verify(connection, what, format)?;
     match (format, what) {
         (Format::Json, ExportWhat::Inventory(name)) => {
             let text = values::named(connection, name)?.inventory.to_json();
@@ -340,20 +377,20 @@ fn write_file(
             Err(Error::wrong(format!("the inventory {name:?} is written as JSON"))
                 .advise("end the name of the file in .json"))
         }
-        (Format::Table(delimiter), ExportWhat::Address(Address::Tier(tier))) => {
-            csv::annotations(connection, *tier, delimiter, out)
+        (Format::Table(form), ExportWhat::Address(Address::Tier(tier))) => {
+            csv::annotations(connection, *tier, form, out)
         }
-        (Format::Table(delimiter), ExportWhat::Address(Address::Recording(_)))
+        (Format::Table(form), ExportWhat::Address(Address::Recording(_)))
             if let Ok(stretch) = stretch(connection, what)
                 && tokens(connection, what)?.is_empty()
                 && foreign::has(connection, stretch.recording.id, TrackKind::Curves)? =>
         {
             notes.push("the recording has no tokens: the table holds its curves".to_owned());
-            foreign::numbers(connection, &stretch, TrackKind::Curves, delimiter, out, notes)
+            foreign::numbers(connection, &stretch, TrackKind::Curves, form.delimiter, out, notes)
         }
-        (Format::Table(delimiter), _) => {
+        (Format::Table(form), _) => {
             let tokens = tokens(connection, what)?;
-            csv::tokens(connection, &tokens, delimiter, out, notes, progress)
+            csv::tokens(connection, &tokens, form, out, notes, progress)
         }
         (Format::Curves(delimiter), _) => {
             let stretch = stretch(connection, what)?;
@@ -417,6 +454,53 @@ fn write_file(
         (Format::Notation(form), _) => {
             let tokens = tokens(connection, what)?;
             notation::write(connection, &tokens, form, out, notes, progress)
+        }
+    }
+}
+
+/// Returns a note on each row that is not as it was stored: what can be read of a damaged corpus can be saved whole.
+fn damaged_rows(connection: &Connection) -> Result<Vec<String>> {
+    let mut notes = Vec::new();
+    for table in seals::sealed_tables() {
+        let broken = seals::broken_seals(connection, table)?;
+        notes.extend(broken.iter().map(|rows| rows.error().to_string()));
+    }
+    Ok(notes)
+}
+
+/// Fails if rows that are written are not as they were stored.
+fn verify(connection: &Connection, what: &ExportWhat, format: Format) -> Result<()> {
+    let is_of_tokens = matches!(
+        format,
+        Format::Table(_) | Format::Notation(_) | Format::Parquet(Long::Tokens | Long::Components)
+    );
+    match what {
+        ExportWhat::Inventory(_) => {
+            seals::verify_tables(connection, ["inventory", "inventory_value"])
+        }
+        ExportWhat::All => seals::verify_tables(connection, seals::tables_of(is_of_tokens)),
+        ExportWhat::Address(Address::Tier(tier)) => {
+            let tier = tiers::tier(connection, *tier)?;
+            seals::verify_recordings(connection, &[tier.recording_id])
+        }
+        ExportWhat::Several(addresses) => addresses
+            .iter()
+            .try_for_each(|one| verify(connection, &ExportWhat::Address(one.clone()), format)),
+        ExportWhat::Tokens(_) | ExportWhat::Address(_) => {
+            // What cannot be found is refused by the format.
+            let tokens = tokens(connection, what).unwrap_or_default();
+            seals::verify_tokens(connection, &tokens)?;
+            let mut recordings: Vec<i64> = match stretch(connection, what) {
+                Ok(stretch) if !is_of_tokens || stretch.token.is_none() => {
+                    vec![stretch.recording.id]
+                }
+                _ => Vec::new(),
+            };
+            if !is_of_tokens {
+                let rows = signs::tokens(connection, &tokens)?;
+                recordings.extend(rows.values().filter_map(|token| token.recording_id));
+            }
+            seals::verify_recordings(connection, &recordings)
         }
     }
 }
@@ -513,12 +597,13 @@ fn whole(
     force: bool,
     write: &mut dyn FnMut(&mut dyn Write) -> Result<()>,
 ) -> Result<ExportedFile> {
+    remove_leftovers(to);
     Unnamed::write(to, force, write)?.name()
 }
 
 /// A complete file under a temporary name beside its path; it is removed unless it gets its name.
 struct Unnamed {
-    part: PathBuf,
+    part: Unfinished,
     file: ExportedFile,
 }
 
@@ -533,7 +618,7 @@ impl Unnamed {
         }
         check_folder(to)?;
         let mut unnamed = Self {
-            part: unfinished(to),
+            part: Unfinished::file(to).map_err(|error| Error::file(to, error))?,
             file: ExportedFile {
                 path: to.to_owned(),
                 bytes: 0,
@@ -547,7 +632,8 @@ impl Unnamed {
     fn fill(&mut self, write: &mut dyn FnMut(&mut dyn Write) -> Result<()>) -> Result<()> {
         let to = self.file.path.clone();
         let fault = |error| Error::file(&to, error);
-        let file = File::create(&self.part).map_err(fault)?;
+        let file = File::options().write(true).open(self.part.path());
+        let file = file.map_err(fault)?;
         let mut out = Hashed {
             out: BufWriter::with_capacity(1 << 20, file),
             digest: Sha256::new(),
@@ -566,16 +652,10 @@ impl Unnamed {
 
     /// Gives the file its name.
     fn name(self) -> Result<ExportedFile> {
-        let file = self.file.clone();
-        fs::rename(&self.part, &file.path).map_err(|error| Error::file(&file.path, error))?;
-        Ok(file)
-    }
-}
-
-impl Drop for Unnamed {
-    fn drop(&mut self) {
-        // The remains of a failed export are useless; a file that got its name is no longer there.
-        let _ = fs::remove_file(&self.part);
+        let path = &self.file.path;
+        let named = self.part.rename(path);
+        named.map_err(|error| Error::file(path, error))?;
+        Ok(self.file)
     }
 }
 
@@ -587,12 +667,6 @@ pub(crate) fn check_folder(to: &Path) -> Result<()> {
     }
     let message = format!("the folder {} is not there", folder.display());
     Err(Error::wrong(message).advise("make it first, or choose another place"))
-}
-
-/// Returns the temporary name beside `to` for a file that is being written.
-fn unfinished(to: &Path) -> PathBuf {
-    let name = to.file_name().unwrap_or_default().to_string_lossy();
-    to.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple()))
 }
 
 /// Writer that counts and hashes the bytes written to it.

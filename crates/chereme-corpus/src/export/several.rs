@@ -18,6 +18,7 @@ use crate::db::tiers::{self, TierRow};
 use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
+use crate::unfinished::remove_leftovers_in;
 
 /// The number of names that a note lists.
 const SHOWN: usize = 12;
@@ -57,6 +58,8 @@ pub(super) fn write(
     }
     let is_new = !to.exists();
     fs::create_dir_all(to).map_err(|error| Error::file(to, error))?;
+    let ending = format!(".{extension}");
+    remove_leftovers_in(to, |name| name.ends_with(&ending));
     let done = fill(
         connection,
         &parts,

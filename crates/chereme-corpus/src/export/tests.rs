@@ -461,7 +461,7 @@ fn several_recordings_go_into_one_folder_a_file_each() {
     let write = |what: &ExportWhat, to: &Path, force: bool, format: &str| {
         let options = ExportOptions {
             force,
-            format: Some(format.to_owned()),
+            ..ExportOptions::from(format)
         };
         let mut hear = unheard;
         corpus.export(what, to, &options, &mut Progress::new(&mut hear))

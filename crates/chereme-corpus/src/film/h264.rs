@@ -2,7 +2,6 @@
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
 use chereme_formats::mp4::{Colours, Container, h264};
@@ -10,6 +9,7 @@ use rusty_h264::Decoder;
 
 use super::colours::Planes;
 use super::{Decode, Error, Result};
+use crate::foreign_code::catch_panic;
 
 /// The largest coded picture in bytes.
 const LARGEST: u32 = 64 << 20;
@@ -106,9 +106,9 @@ impl Own {
         h264::annex_b(&self.configuration, &self.coded, sets, &mut self.stream)
             .map_err(|error| error.to_string())?;
         // After a panic the decoder is discarded.
-        let decoded = catch_unwind(AssertUnwindSafe(|| self.decoder.decode(&self.stream)));
+        let decoded = catch_panic(|| self.decoder.decode(&self.stream));
         match decoded {
-            Ok(Ok(picture)) => Ok(picture.map(|it| Planes {
+            Some(Ok(picture)) => Ok(picture.map(|it| Planes {
                 width: it.width,
                 height: it.height,
                 y: it.y,
@@ -116,8 +116,8 @@ impl Own {
                 v: it.v,
                 colours: self.colours,
             })),
-            Ok(Err(error)) => Err(error.to_string()),
-            Err(_) => {
+            Some(Err(error)) => Err(error.to_string()),
+            None => {
                 self.decoder = Decoder::new();
                 Err("the decoder gave up".to_owned())
             }

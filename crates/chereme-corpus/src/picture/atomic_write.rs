@@ -5,6 +5,7 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// Writes a file under a temporary name beside its path, and renames it when it is complete.
 pub(crate) fn write(
@@ -16,17 +17,14 @@ pub(crate) fn write(
         return Err(Error::file(to, std::io::ErrorKind::AlreadyExists.into()));
     }
     crate::export::check_folder(to)?;
-    let part = to.with_extension(format!("{}.part", extension(to)));
+    remove_leftovers(to);
     let fault = |error| Error::file(to, error);
-    let file = File::create(&part).map_err(fault)?;
-    let mut out = BufWriter::new(file);
-    let done = fill(&mut out).and_then(|()| out.flush().map_err(fault));
+    let part = Unfinished::file(to).map_err(fault)?;
+    let file = File::options().write(true).open(part.path());
+    let mut out = BufWriter::new(file.map_err(fault)?);
+    fill(&mut out).and_then(|()| out.flush().map_err(fault))?;
     drop(out);
-    if let Err(error) = done {
-        let _ = std::fs::remove_file(&part);
-        return Err(error);
-    }
-    std::fs::rename(&part, to).map_err(fault)?;
+    part.rename(to).map_err(fault)?;
     Ok(std::fs::metadata(to).map_err(fault)?.len())
 }
 

@@ -26,6 +26,7 @@ use serde_json::{Value, json};
 
 use crate::Corpus;
 use crate::consent::{self, Permissions, Withheld};
+use crate::db::seals;
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
@@ -166,6 +167,8 @@ impl Corpus {
                 .at(to.display().to_string())
                 .advise("name a folder that holds only what everybody may see"));
         }
+        let tables = seals::tables_of(false).chain(["inventory", "inventory_value"]);
+        seals::verify_tables(self.store.read(), tables)?;
         let terms = options.terms.as_deref().map(str::trim);
         let terms = terms.filter(|it| !it.is_empty());
         let permissions = Permissions::of(self.store.read(), terms)?;

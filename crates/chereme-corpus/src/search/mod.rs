@@ -47,7 +47,7 @@ use compile::{Ask, Asked, Failure};
 pub use everyday::{guessed, meant};
 pub use facets::FACET_VALUES;
 pub use finding::{Finding, FindingKind};
-use index::SearchIndex;
+use index::{SearchIndex, unbroken};
 use like::Scores;
 pub use tally::{NO_VALUE, Tally, TallyRow};
 
@@ -143,14 +143,28 @@ impl Corpus {
                 unit: Unit::Items,
             })
         });
+        let mut mended = false;
         for _ in 0..ATTEMPTS {
             let (connection, index) = self.store.searchable()?;
             let reading = rows::begin_reading(connection)?;
             if !index.is_current(connection)? {
                 continue;
             }
-            let answer = with_index((connection, index), &hear, |it| ask(it, &parsed));
+            let answer = unbroken(|| {
+                Ok(with_index((connection, index), &hear, |it| {
+                    ask(it, &parsed)
+                }))
+            });
             drop(reading);
+            let answer = match answer {
+                Err(Error::Index(_)) | Ok(Err(Failure::Other(Error::Index(_)))) if !mended => {
+                    mended = true;
+                    self.store.reindex(&mut Progress::new(&mut unheard))?;
+                    self.store.index().note_rebuilt();
+                    continue;
+                }
+                answered => answered?,
+            };
             return answer.map_err(|failure| match failure {
                 Failure::Query(error) => wrong(query, &error),
                 Failure::Other(error) => error,

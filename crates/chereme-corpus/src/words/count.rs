@@ -3,7 +3,7 @@
 use super::Language;
 
 /// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 37] = [
+const NOUNS: [(&str, &str, &str, &str); 39] = [
     ("annotations", "annotation", "annotation", "annotations"),
     ("answers", "answer", "réponse", "réponses"),
     ("attributes", "attribute", "attribut", "attributs"),
@@ -40,6 +40,7 @@ const NOUNS: [(&str, &str, &str, &str); 37] = [
         "paires d’acteurs",
     ),
     ("points", "point", "point", "points"),
+    ("questions", "question", "question", "questions"),
     ("recipes", "recipe", "recette", "recettes"),
     (
         "recordings",
@@ -55,6 +56,7 @@ const NOUNS: [(&str, &str, &str, &str); 37] = [
     ("skeletons", "skeleton", "squelette", "squelettes"),
     ("studies", "study", "étude", "études"),
     ("symbols", "symbol", "symbole", "symboles"),
+    ("tables", "table", "table", "tables"),
     ("tiers", "tier", "acteur", "acteurs"),
     ("times", "time", "fois", "fois"),
     ("tokens", "token", "occurrence", "occurrences"),

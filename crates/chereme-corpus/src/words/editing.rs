@@ -374,8 +374,44 @@ pub(super) const EDITING: &[(&str, &str)] = &[
         "il manque les images {first} à {last} sur {all}",
     ),
     (
-        "correct the annotation: `chereme annotate CORPUS set ANNOTATION --value TEXT`, or --start and --end",
-        "corrigez l’annotation : `chereme annotate CORPUS set ANNOTATION --value TEXTE`, ou --start et --end",
+        "correct the value: `chereme annotate CORPUS set ANNOTATION --value TEXT`",
+        "corrigez la valeur : `chereme annotate CORPUS set ANNOTATION --value TEXTE`",
+    ),
+    (
+        "correct the times: `chereme annotate CORPUS set ANNOTATION --start TIME --end TIME`",
+        "corrigez les temps : `chereme annotate CORPUS set ANNOTATION --start TEMPS --end TEMPS`",
+    ),
+    (
+        "give it another name: `chereme annotate CORPUS tier TIER --name NAME --in RECORDING`",
+        "donnez-lui un autre nom : `chereme annotate CORPUS tier ACTEUR --name NOM --in ENREGISTREMENT`",
+    ),
+    (
+        "correct the tiers in the file that they come from, and import it again",
+        "corrigez les acteurs dans le fichier d’où ils viennent, et importez-le de nouveau",
+    ),
+    (
+        "correct it in the file that it comes from and import that again, or remove it: `chereme annotate CORPUS remove ANNOTATION`",
+        "corrigez-la dans le fichier d’où elle vient et importez-le de nouveau, ou supprimez-la : `chereme annotate CORPUS remove ANNOTATION`",
+    ),
+    (
+        "its content does not match its checksum",
+        "son contenu ne correspond pas à sa somme de contrôle",
+    ),
+    (
+        "compare it with a backup; if it is right as it is now, `chereme check CORPUS --accept` keeps it so",
+        "comparez avec une sauvegarde ; si c’est juste tel quel, `chereme check CORPUS --accept` le garde ainsi",
+    ),
+    (
+        "its file {name} is not as it was stored",
+        "son fichier {name} n’est pas tel qu’il a été enregistré",
+    ),
+    (
+        "its bytes do not match its hash",
+        "ses octets ne correspondent pas à son empreinte",
+    ),
+    (
+        "its plan does not match the hash that names it",
+        "son plan ne correspond pas à l’empreinte qui le nomme",
     ),
     (
         "further overlapping annotations on {tier}: {n}",

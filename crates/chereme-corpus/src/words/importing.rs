@@ -166,6 +166,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "compilez-le avec `cargo build --release --features parquet` ; ou {what}",
     ),
     (
+        "only a table of tokens or annotations is written for spreadsheets",
+        "seul un tableau d’occurrences ou d’annotations s’écrit pour les tableurs",
+    ),
+    (
+        "end the name in .csv or .tsv, or leave --spreadsheet-safe out",
+        "terminez le nom par .csv ou .tsv, ou omettez --spreadsheet-safe",
+    ),
+    (
         "only everything can be written as a folder of all formats",
         "seul l’ensemble s’écrit comme un dossier de tous les formats",
     ),

@@ -147,6 +147,14 @@ const MESSAGES: &[(&str, &str)] = &[
         "the search index says: {what}",
         "l’index de recherche dit : {what}",
     ),
+    (
+        "{path} was moved, deleted or replaced meanwhile; the work is saved in {rescued}",
+        "{path} a été déplacé, supprimé ou remplacé entre-temps ; le travail est enregistré dans {rescued}",
+    ),
+    (
+        "compare the two files, and give the one with the work its name",
+        "comparez les deux fichiers, et donnez son nom à celui qui contient le travail",
+    ),
     ("{place} is damaged: {why}", "{place} est abîmé : {why}"),
     (
         "stopped; the corpus is as it was before",

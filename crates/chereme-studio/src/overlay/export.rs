@@ -328,7 +328,7 @@ impl Export {
         let to = PathBuf::from(self.to.trim());
         let options = ExportOptions {
             force: self.replace,
-            format: None,
+            ..ExportOptions::default()
         };
         let address = |address: Address| ExportWhat::Address(address);
         let job = match what {

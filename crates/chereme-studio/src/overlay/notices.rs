@@ -272,19 +272,19 @@ impl Notices {
 
     /// Reports the results of a check: faults with their places and remedies, which stay until they are dismissed.
     fn checked(&mut self, report: &CheckReport, language: Language) {
-        if report.ok && report.mended.is_empty() {
+        if report.ok && report.mended.is_empty() && report.questions.is_empty() {
             return self.hint(words::CHECKED_WELL.of(language));
         }
-        let (text, n) = if report.ok {
-            (words::CHECKED_MENDED, report.mended.len())
-        } else {
-            (words::CHECKED_FAULTS, report.faults.len())
+        let (text, n) = match (report.ok, report.mended.len()) {
+            (false, _) => (words::CHECKED_FAULTS, report.faults.len()),
+            (true, 0) => (words::CHECKED_WELL, 0),
+            (true, mended) => (words::CHECKED_MENDED, mended),
         };
         self.say(&fill(text.of(language), &[("n", &n)]), None);
         if let (false, Some(notice)) = (report.ok, self.all.last_mut()) {
             notice.kind = NoticeKind::Error;
         }
-        let faults = report.faults.iter();
+        let faults = report.faults.iter().chain(&report.questions);
         let said = |text: &String| spoken(text, language);
         let faults = faults.map(|it| {
             let message = said(&it.message);

@@ -207,3 +207,59 @@ fn movement_that_was_lost_for_a_while_is_reported_in_both_languages() {
     let is_french = french.contains("perdu ici : images 180 à 191 : le bras droit saute");
     assert!(is_french, "{french}");
 }
+
+#[test]
+fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let whole = eaf(&[("Gloss", 0, 500, "BOL")]);
+    let below = |name: &str, above: &str, place: usize| {
+        format!(
+            "<TIER TIER_ID=\"{name}\" LINGUISTIC_TYPE_REF=\"a\" PARENT_REF=\"{above}\"><ANNOTATION><REF_ANNOTATION \
+             ANNOTATION_ID=\"b{place}\" ANNOTATION_REF=\"{}\"><ANNOTATION_VALUE>x</ANNOTATION_VALUE></REF_ANNOTATION>\
+             </ANNOTATION></TIER>",
+            if place == 0 {
+                "a0".to_owned()
+            } else {
+                format!("b{}", place - 1)
+            }
+        )
+    };
+    let kind = "<LINGUISTIC_TYPE LINGUISTIC_TYPE_ID=\"a\" TIME_ALIGNABLE=\"false\" CONSTRAINTS=\"Symbolic_Association\"/>";
+    let with = |tiers: String| {
+        let text = whole.replacen("<LINGUISTIC_TYPE ", &format!("{tiers}<LINGUISTIC_TYPE "), 1);
+        text.replace(
+            "</ANNOTATION_DOCUMENT>",
+            &format!("{kind}</ANNOTATION_DOCUMENT>"),
+        )
+    };
+    let deep = (0..200).map(|place| match place {
+        0 => below("t0", "Gloss", 0),
+        place => below(&format!("t{place}"), &format!("t{}", place - 1), place),
+    });
+    for (name, text, told) in [
+        (
+            "orphan.eaf",
+            with(below("Gone", "Missing", 0)),
+            "is not in the file; it becomes a root tier",
+        ),
+        (
+            "deep.eaf",
+            with(deep.collect()),
+            "hangs below more than 64 others; it becomes a root tier",
+        ),
+    ] {
+        let report = import(&mut corpus, &desk.file(name, &text), "{}");
+        let is_told = |it: &ReportFinding| it.message.contains(told);
+        assert!(report.findings.iter().any(is_told), "{:?}", report.findings);
+        let mut hear = unheard;
+        let checked = corpus
+            .check(false, &mut Progress::new(&mut hear))
+            .expect("checked");
+        assert_eq!(
+            (checked.faults, checked.questions),
+            (vec![], vec![]),
+            "{name}"
+        );
+    }
+}

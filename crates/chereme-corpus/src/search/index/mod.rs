@@ -35,6 +35,7 @@ use super::known::Memory;
 use crate::db::Derived;
 use crate::db::search::{self as rows, State, TokenDocument};
 use crate::error::{Error, Result};
+use crate::foreign_code::catch_panic;
 use crate::progress::{Progress, Step, Unit, unheard};
 
 use directory::MemoryFolder;
@@ -90,7 +91,16 @@ fn follows(state: &State) -> bool {
     state.content == state.indexed && state.format == FORMAT
 }
 
+/// Returns the result of work with the search engine; if that panics, the index is damaged.
+pub(crate) fn unbroken<T>(work: impl FnOnce() -> Result<T>) -> Result<T> {
+    catch_panic(work).unwrap_or_else(|| Err(Error::Index("it is damaged".into())))
+}
+
 impl SearchIndex {
+    fn load(&self, connection: &Connection, indexed: i64) -> Result<OpenIndex> {
+        unbroken(|| OpenIndex::load(connection, indexed, self.open.as_ref()))
+    }
+
     fn is_open_at(&self, indexed: i64) -> bool {
         self.open
             .as_ref()
@@ -111,6 +121,11 @@ impl SearchIndex {
     #[cfg(test)]
     pub(crate) fn was_rebuilt(&self) -> bool {
         self.rebuilt.get()
+    }
+
+    /// Records that the index was rebuilt because it was damaged.
+    pub(crate) fn note_rebuilt(&self) {
+        self.rebuilt.set(true);
     }
 
     /// Returns whether the index had to be rebuilt since the last call.
@@ -163,7 +178,7 @@ impl Derived for SearchIndex {
             return self.mend(connection, state.content != 0);
         }
         if !self.is_open_at(state.indexed) {
-            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
+            match self.load(connection, state.indexed) {
                 Ok(open) => self.open = Some(open),
                 Err(Error::Index(_)) => return self.mend(connection, true),
                 Err(other) => return Err(other),
@@ -184,15 +199,17 @@ impl Derived for SearchIndex {
             return self.rebuild(connection, progress);
         }
         if !self.is_open_at(state.indexed) {
-            match OpenIndex::load(connection, state.indexed, self.open.as_ref()) {
+            match self.load(connection, state.indexed) {
                 Ok(open) => self.open = Some(open),
                 Err(Error::Index(_)) => return self.rebuild(connection, progress),
                 Err(other) => return Err(other),
             }
         }
         let open = self.open.as_mut().expect("just loaded");
-        open.write(connection, &touched, state.content, progress)?;
-        open.save(connection, state.content)
+        match unbroken(|| open.write(connection, &touched, state.content, progress)) {
+            Err(Error::Index(_)) => self.rebuild(connection, progress),
+            written => written.and_then(|()| open.save(connection, state.content)),
+        }
     }
 
     /// Rebuilds the index from all rows, inside the caller's transaction.

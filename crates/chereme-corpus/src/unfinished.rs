@@ -1,0 +1,200 @@
+//! Files and folders that are made under a temporary name beside their place, and the removal of those that a killed
+//! program left there.
+
+use std::fs::{self, File};
+use std::io;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use uuid::Uuid;
+
+/// A leftover is at least this old: a younger one may be about to be locked.
+const LEAST_AGE: Duration = Duration::from_secs(if cfg!(unix) { 2 } else { 24 * 60 * 60 });
+/// The endings of the files that a database has beside it.
+const COMPANIONS: [&str; 3] = ["-wal", "-shm", "-journal"];
+
+/// A file or folder under a temporary name; it is removed when it is dropped, unless it got its final name.
+pub(crate) struct Unfinished {
+    path: PathBuf,
+    /// Locked, so that other processes see that somebody works on it.
+    _held: Option<File>,
+}
+
+impl Unfinished {
+    /// Creates an empty file beside `to`.
+    pub(crate) fn file(to: &Path) -> io::Result<Self> {
+        let path = temporary_name(to);
+        let held = hold(File::create_new(&path)?);
+        Ok(Self { path, _held: held })
+    }
+
+    /// Creates an empty folder beside `to`.
+    pub(crate) fn folder(to: &Path) -> io::Result<Self> {
+        let path = temporary_name(to);
+        fs::create_dir(&path)?;
+        let held = File::open(&path).ok().and_then(hold);
+        Ok(Self { path, _held: held })
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Gives it its final name.
+    pub(crate) fn rename(&self, to: &Path) -> io::Result<()> {
+        fs::rename(&self.path, to)
+    }
+}
+
+impl Drop for Unfinished {
+    fn drop(&mut self) {
+        remove(&self.path);
+    }
+}
+
+/// Removes what killed programs left under temporary names for the place `to`.
+pub(crate) fn remove_leftovers(to: &Path) {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    let folder = to.parent().filter(|it| !it.as_os_str().is_empty());
+    remove_leftovers_in(folder.unwrap_or(Path::new(".")), |it| it == name);
+}
+
+/// Removes what killed programs left in a folder under temporary names for the names that `is_own` accepts.
+pub(crate) fn remove_leftovers_in(folder: &Path, is_own: impl Fn(&str) -> bool) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let Some(main) = name.to_str().and_then(main_name) else {
+            continue;
+        };
+        let is_wanted = final_name(main).is_some_and(&is_own);
+        let path = folder.join(main);
+        // Companions go with their file, or alone if it is gone.
+        if is_wanted
+            && (name.to_str() == Some(main) || !path.exists())
+            && is_abandoned(&entry.path())
+        {
+            remove(&path);
+        }
+    }
+}
+
+/// Returns the name of the file to which a file belongs: that of the database for its companions.
+fn main_name(name: &str) -> Option<&str> {
+    let ending = COMPANIONS.iter().find_map(|it| name.strip_suffix(it));
+    Some(ending.unwrap_or(name)).filter(|it| it.starts_with('.'))
+}
+
+/// Returns the final name of a file under a temporary name of this program.
+fn final_name(temporary: &str) -> Option<&str> {
+    let (name, id) = temporary.strip_prefix('.')?.rsplit_once('.')?;
+    let id = Uuid::parse_str(id).ok().filter(|_| id.len() == 32)?;
+    (id.get_version_num() == 7).then_some(name)
+}
+
+fn temporary_name(to: &Path) -> PathBuf {
+    let name = to.file_name().unwrap_or_default().to_string_lossy();
+    to.with_file_name(format!(".{name}.{}", Uuid::now_v7().simple()))
+}
+
+/// Returns whether a file or folder is old and no process holds it.
+fn is_abandoned(path: &Path) -> bool {
+    let modified = fs::symlink_metadata(path).and_then(|it| it.modified());
+    let is_old = modified.is_ok_and(|it| it.elapsed().is_ok_and(|age| age > LEAST_AGE));
+    is_old && is_free(path)
+}
+
+#[cfg(unix)]
+fn hold(file: File) -> Option<File> {
+    file.try_lock().is_ok().then_some(file)
+}
+
+#[cfg(unix)]
+fn is_free(path: &Path) -> bool {
+    File::open(path).is_ok_and(|file| file.try_lock().is_ok())
+}
+
+/// Returns nothing: a lock of other systems would keep the database from its own file.
+#[cfg(not(unix))]
+fn hold(_: File) -> Option<File> {
+    None
+}
+
+#[cfg(not(unix))]
+fn is_free(_: &Path) -> bool {
+    true
+}
+
+/// Removes a file with its companions, or a folder; what is not there needs no removal.
+fn remove(path: &Path) {
+    if fs::symlink_metadata(path).is_ok_and(|it| it.is_dir()) {
+        drop(fs::remove_dir_all(path));
+        return;
+    }
+    drop(fs::remove_file(path));
+    for ending in COMPANIONS {
+        let mut name = path.as_os_str().to_owned();
+        name.push(ending);
+        drop(fs::remove_file(name));
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_own_names_that_nobody_holds_are_removed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let to = folder.path().join("c.chereme");
+        let id = Uuid::now_v7().simple();
+        let held = Unfinished::file(&to).expect("made");
+        let held_name = held
+            .path()
+            .file_name()
+            .expect("a name")
+            .to_string_lossy()
+            .into_owned();
+        let other = Uuid::from_u128(0x1234_5678_1234_4678_8234_5678_1234_5678).simple();
+        let left = [
+            format!(".c.chereme.{id}"),
+            format!(".c.chereme.{id}-wal"),
+            format!(".c.chereme.{}-shm", Uuid::now_v7().simple()),
+        ];
+        let kept = [
+            "c.chereme".to_owned(),
+            held_name,
+            format!(".d.chereme.{id}"),
+            format!(".c.chereme.{other}"),
+            format!("c.chereme.{id}"),
+            ".c.chereme.old".to_owned(),
+        ];
+        let make = |name: &String, age: u64| {
+            let path = folder.path().join(name);
+            let mut options = File::options();
+            let file = options.create(true).truncate(false).write(true);
+            let file = file.open(path).expect("made");
+            let then = std::time::SystemTime::now() - Duration::from_secs(age);
+            file.set_modified(then).expect("set");
+        };
+        left.iter().chain(&kept).for_each(|name| make(name, 60));
+        let young = format!(".c.chereme.{}", Uuid::now_v7().simple());
+        make(&young, 0);
+        let shelf = folder
+            .path()
+            .join(format!(".c.chereme.{}", Uuid::now_v7().simple()));
+        fs::create_dir(&shelf).expect("made");
+        fs::write(shelf.join("a"), "a").expect("written");
+        File::open(&shelf)
+            .and_then(|it| it.set_modified(std::time::SystemTime::UNIX_EPOCH))
+            .expect("set");
+        remove_leftovers(&to);
+        let names = fs::read_dir(folder.path()).expect("a folder").flatten();
+        let mut names: Vec<String> = names
+            .map(|it| it.file_name().to_string_lossy().into_owned())
+            .collect();
+        let mut wanted: Vec<String> = kept.into_iter().chain([young]).collect();
+        names.sort();
+        wanted.sort();
+        assert_eq!(names, wanted);
+    }
+}
