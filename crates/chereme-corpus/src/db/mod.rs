@@ -28,6 +28,7 @@ pub(crate) mod seals;
 pub(crate) mod search;
 pub(crate) mod signs;
 pub(crate) mod spans;
+mod stale_log;
 pub(crate) mod studies;
 pub(crate) mod tiers;
 pub(crate) mod tracks;
@@ -270,11 +271,7 @@ impl Drop for OpenPlace {
         if self.0.stands() {
             return;
         }
-        let beside = |ending: &str| {
-            let mut name = self.0.path().as_os_str().to_owned();
-            name.push(ending);
-            PathBuf::from(name)
-        };
+        let beside = |ending| stale_log::beside(self.0.path(), ending);
         let log = beside("-wal");
         if log.metadata().is_ok_and(|log| log.len() == 0) {
             // A failure is harmless: an empty log changes nothing.

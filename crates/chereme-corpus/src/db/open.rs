@@ -11,7 +11,7 @@ use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 
-use super::{damaged, roles, seals, upgrade};
+use super::{damaged, roles, seals, stale_log, upgrade};
 use crate::error::{Error, Result};
 use crate::unfinished::{Unfinished, remove_leftovers};
 
@@ -151,9 +151,7 @@ fn outwardly_wrong(path: &Path) -> Result<Option<(String, Remedy)>> {
         size => size,
     };
     let size = page * word(28);
-    let mut log = path.as_os_str().to_owned();
-    log.push("-wal");
-    let logged = fs::metadata(log).is_ok_and(|log| log.len() > 0);
+    let logged = fs::metadata(stale_log::beside(path, "-wal")).is_ok_and(|log| log.len() > 0);
     if whole && !logged && word(24) == word(92) && data.len() < size {
         let reason = format!("it is cut short: {} bytes are there of {size}", data.len());
         return Ok(Some((
@@ -273,6 +271,7 @@ fn checked(path: &Path) -> Result<(Connection, i32)> {
     if let Some((reason, remedy)) = outwardly_wrong(path)? {
         return Err(refuse(reason, remedy));
     }
+    stale_log::set_aside(path, &unchanging(path))?;
     let mut connection = connect(path)?;
     let configured = configure(&mut connection);
     let pragma = |name: &str| connection.pragma_query_value(None, name, |row| row.get::<_, i32>(0));
@@ -431,6 +430,7 @@ fn take_steps(
         transaction.execute_batch(step)?;
         upgrade::after_step(&transaction)?;
     }
+    upgrade::rewrite_json_rules(&transaction)?;
     roles::add_missing(&transaction)?;
     fill(&transaction)?;
     seals::seal_tables(&transaction, seals::sealed_tables())?;
@@ -597,6 +597,41 @@ mod tests {
                 assert!(remedy.contains("from a backup"), "{remedy}");
             }
         }
+    }
+
+    #[test]
+    fn rules_of_columns_that_may_be_empty_hold_for_older_sqlite_too() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("c.chereme");
+        let rules = |path: &Path| -> Vec<String> {
+            let (connection, _) = open(path).expect("opened");
+            let sql = "SELECT sql FROM sqlite_schema WHERE sql LIKE '%json_valid%'";
+            let mut statement = connection.prepare(sql).expect("read");
+            let rules = statement.query_map([], |row| row.get(0)).expect("read");
+            rules.map(|it| it.expect("a rule")).collect()
+        };
+        drop(create(&path, |_| Ok(())).expect("made"));
+        let new = rules(&path);
+        let old = folder.path().join("old.chereme");
+        write_old(&old);
+        assert_eq!(rules(&old), new);
+        let loose = new.iter().flat_map(|it| it.lines());
+        let loose: Vec<&str> = loose
+            .filter(|it| it.contains("json_valid") && !it.contains("NOT NULL"))
+            .collect();
+        assert_eq!(loose.len(), 8, "{loose:#?}");
+        assert!(
+            loose
+                .iter()
+                .all(|it| it.contains(" IS NULL OR json_valid(")),
+            "{loose:#?}"
+        );
+        let foreign = Connection::open(&path).expect("opened");
+        assert!(
+            foreign
+                .execute_batch("INSERT INTO signer (name, consent) VALUES ('A', '{')")
+                .is_err()
+        );
     }
 
     #[test]

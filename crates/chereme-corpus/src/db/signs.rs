@@ -10,6 +10,7 @@ use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 
 use super::columns::{Col, Origin, ValueState, phase, phase_name, phase_place, word, word_or_null};
+use super::tiers;
 use crate::error::{Error, Result};
 
 /// A sign: a lexical entry.
@@ -99,6 +100,8 @@ pub(crate) fn sign_glossed(connection: &Connection, gloss: &str) -> Result<i64> 
     if let Some(id) = find_sign(connection, gloss)? {
         return Ok(id);
     }
+    let place = || format!("sign {:?}", gloss.chars().take(40).collect::<String>());
+    tiers::check_text(place, gloss)?;
     connection
         .prepare_cached("INSERT INTO sign (gloss) VALUES (?1)")?
         .execute([gloss])?;

@@ -1,5 +1,6 @@
 //! Rows of tiers and annotations.
 
+use chereme_motion::Instant;
 use chereme_sign::Remedy;
 use chereme_sign::tier::Hands;
 use chereme_sign::{Component, Reading, Stereotype, TierRole, TierTopic};
@@ -10,6 +11,9 @@ use super::columns::{
     AnnotationOrigin, Col, ValueState, role, role_parts, serialize_role, word, word_or_null,
 };
 use crate::error::{Error, Result};
+
+/// The longest value of an annotation and the longest gloss, in bytes.
+const LONGEST_VALUE: usize = 1 << 20;
 
 /// A tier of a recording.
 #[derive(Debug, Clone, PartialEq, Eq, Default, Serialize)]
@@ -119,6 +123,14 @@ pub(crate) struct AnnotationRow {
 }
 
 impl AnnotationRow {
+    fn check_length(&self) -> Result<()> {
+        let place = || match &self.external_id {
+            Some(id) => format!("annotation {id:?}"),
+            None => format!("annotation at {}", Instant::from_micros(self.start_us)),
+        };
+        check_text(place, &self.value)
+    }
+
     /// Returns the state with the value.
     pub(crate) fn reading(&self) -> Reading {
         self.state.reading(&self.value)
@@ -287,6 +299,7 @@ pub(crate) fn roles_named(connection: &Connection, name: &str) -> Result<Vec<Tie
 
 /// Writes an annotation and returns its row; its `id` is not used.
 pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) -> Result<i64> {
+    row.check_length()?;
     connection
         .prepare_cached(
             "INSERT INTO annotation (tier_id, start_us, end_us, state, value, parent_id, position,
@@ -311,8 +324,22 @@ pub(crate) fn insert_annotation(connection: &Connection, row: &AnnotationRow) ->
     Ok(connection.last_insert_rowid())
 }
 
+/// Refuses a text that is longer than any value.
+pub(crate) fn check_text(place: impl FnOnce() -> String, text: &str) -> Result<()> {
+    let length = text.len();
+    if length <= LONGEST_VALUE {
+        return Ok(());
+    }
+    Err(Error::wrong(format!(
+        "the value has {length} bytes, and a value has at most {LONGEST_VALUE}"
+    ))
+    .at(place())
+    .advise("shorten it in the file that it comes from"))
+}
+
 /// Writes an annotation's row again.
 pub(crate) fn update_annotation(connection: &Connection, row: &AnnotationRow) -> Result<()> {
+    row.check_length()?;
     connection
         .prepare_cached(
             "UPDATE annotation SET tier_id = ?2, start_us = ?3, end_us = ?4, state = ?5, value = ?6,

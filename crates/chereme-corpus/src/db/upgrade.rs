@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 
+use rusqlite::config::DbConfig;
 use rusqlite::{Connection, params};
 use serde_json::{Map, Value, json};
 use sha2::{Digest, Sha256};
@@ -26,6 +27,25 @@ pub(super) fn after_step(connection: &Connection) -> Result<()> {
         connection.execute_batch("DROP TABLE old_curve; DROP TABLE old_curve_block;")?;
     }
     Ok(())
+}
+
+/// Columns of JSON that may be empty.
+const MISSING_JSON: [&str; 5] = ["roles", "channel_groups", "layout", "source", "consent"];
+
+/// Rewrites the rules of columns that may be empty: for SQLite before 3.45 `json_valid` of nothing is false, so that its
+/// `integrity_check` would find each such row broken.
+pub(super) fn rewrite_json_rules(connection: &Connection) -> Result<()> {
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, false)?;
+    connection.pragma_update(None, "writable_schema", true)?;
+    let rewritten = MISSING_JSON.iter().try_for_each(|column| {
+        let rule = format!("TEXT CHECK (json_valid({column}))");
+        let other = format!("TEXT CHECK ({column} IS NULL OR json_valid({column}))");
+        let sql = "UPDATE sqlite_schema SET sql = replace(sql, ?1, ?2) WHERE type = 'table'";
+        connection.execute(sql, [rule, other]).map(|_| ())
+    });
+    connection.pragma_update(None, "writable_schema", false)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
+    Ok(rewritten?)
 }
 
 /// Converts scalar curves to tracks. Up to version 4 they were rows next to a skeleton's track; now they are a track of

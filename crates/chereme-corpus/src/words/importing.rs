@@ -166,6 +166,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "compilez-le avec `cargo build --release --features parquet` ; ou {what}",
     ),
     (
+        "the value has {n} bytes, and a value has at most {most}",
+        "la valeur a {n} octets, et une valeur en a au plus {most}",
+    ),
+    (
+        "shorten it in the file that it comes from",
+        "raccourcissez-la dans le fichier d’où elle vient",
+    ),
+    (
         "only a table of tokens or annotations is written for spreadsheets",
         "seul un tableau d’occurrences ou d’annotations s’écrit pour les tableurs",
     ),

@@ -263,3 +263,19 @@ fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
         );
     }
 }
+
+#[test]
+fn a_value_that_no_person_wrote_is_refused_with_its_place() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let longest = "x".repeat(1 << 20);
+    for (value, fits) in [(longest.clone(), true), (longest + "x", false)] {
+        let file = desk.file("long.eaf", &eaf(&[("Gloss", 0, 500, &value)]));
+        let (mut hear, options) = (unheard, ImportOptions::default());
+        let report = corpus.import(&[file], &options, &mut Progress::new(&mut hear));
+        let report = report.expect("a report").files.remove(0);
+        assert_eq!(report.status == FileStatus::Refused, !fits, "{report:?}");
+        let is_told = |it: &ReportFinding| it.message.contains("a value has at most 1048576");
+        assert_eq!(report.findings.iter().any(is_told), !fits);
+    }
+}
