@@ -272,6 +272,22 @@ fn notation_is_exported_in_each_of_its_forms() {
 }
 
 #[test]
+fn symbols_are_exported_however_their_notation_is_stored() {
+    let mut desk = Desk::new();
+    let names = "hamflathand hamextfingeru hampalmd";
+    let tabs = names.replace(' ', "\t");
+    desk.import("own.hns", &format!("A\t{names}\nB\t{tabs}\n"));
+    let made = desk.corpus.animate(&[names], &Staging::default(), Some("C"));
+    made.expect("stored");
+    let (symbols, notes) = desk.export(&ExportWhat::All, "all.hsigml");
+    assert!(notes.is_empty(), "{notes:?}");
+    let text = String::from_utf8(symbols).expect("text");
+    for name in names.split(' ') {
+        assert_eq!(text.matches(&format!("<{name}/>")).count(), 3, "{text}");
+    }
+}
+
+#[test]
 fn a_notation_is_drawn_symbol_by_symbol() {
     let mut desk = Desk::new();
     desk.import("two.sigml", TWO);

@@ -11,6 +11,7 @@ use crate::tally::Findings;
 use std::collections::{BTreeMap, BTreeSet};
 
 use chereme_sign::hamnosys::{Notated, in_plain_symbols, mended, parse_lenient, symbol::Symbol};
+use chereme_sign::text::nearest;
 
 /// The number of leading bytes that decide whether a file holds HamNoSys.
 const LOOKED_AT: usize = 1 << 16;
@@ -144,6 +145,34 @@ fn begin(line: &str) -> Option<usize> {
     [line.find(character), named].into_iter().flatten().min()
 }
 
+/// Returns the byte at which the symbols of a line start whose first known one is at `known`: words before it that nearly
+/// name a symbol, in the same case, and characters of the font without one belong to them. A word in the first column is
+/// a gloss.
+fn misspelt_begin(line: &str, known: usize) -> usize {
+    let between_columns = |text: &str| text.contains(['\t', ',', ';']);
+    let prefix = match line[known..].starts_with("HAM") {
+        true => "HAM",
+        false => "ham",
+    };
+    let is_misspelt = |word: &str| {
+        let name = word.trim_matches(['<', '/', '>']);
+        word.contains(|c| ('\u{e000}'..='\u{f8ff}').contains(&c))
+            || name.starts_with(prefix) && nearest(name, Symbol::all().map(Symbol::name)).is_some()
+    };
+    let mut first = known;
+    loop {
+        let before = line[..first].trim_end_matches(parting);
+        let start = before.rfind(parting).map_or(0, |at| {
+            at + before[at..].chars().next().map_or(1, char::len_utf8)
+        });
+        let is_gloss = between_columns(&line[before.len()..first]) && !between_columns(&line[..start]);
+        if is_gloss || !is_misspelt(&before[start..]) {
+            return first;
+        }
+        first = start;
+    }
+}
+
 /// Returns the byte at which the last symbol of a line ends, whether or not it is a known one.
 fn end(line: &str) -> usize {
     let is_character = |c: char| ('\u{e000}'..='\u{f8ff}').contains(&c);
@@ -172,7 +201,7 @@ struct Parts<'t> {
 impl<'t> Parts<'t> {
     /// Returns the parts of a line; `None` if it holds no symbol.
     fn of(line: &'t str) -> Option<Self> {
-        let first = begin(line)?;
+        let first = misspelt_begin(line, begin(line)?);
         let before = &line[..first];
         let (symbols, after) = line[first..].split_at(end(&line[first..]));
         let lead = after.find(char::is_alphanumeric).map(|at| &after[..at]);
@@ -468,6 +497,40 @@ mod tests {
                 "{odd}: {findings:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_misspelt_first_symbol_is_no_gloss_and_is_reported() {
+        // The line, its gloss, and the misspelt words.
+        let cases = [
+            ("A\thamflathnd hamextfingeru hampalmd", "A", 1),
+            ("A\thamflathnd\thamextfingeru\thampalmd", "A", 1),
+            ("A\thamflathnd,hamextfingeru,hampalmd", "A", 1),
+            ("A\thamflathnd hamthumboutmodd hampalmd", "A", 2),
+            ("A\tHAMFLATHND HAMEXTFINGERU", "A", 1),
+            ("A B hamflathnd hamextfingeru hampalmd", "A B", 1),
+            ("12\tA\thamflathnd hamextfingeru", "A", 1),
+            ("hamflathnd hamextfingeru hampalmd", "", 1),
+            ("hamflathnd hamextfingeru hampalmd\tA", "A", 1),
+            ("A\t\u{e0fe}\u{e020}\u{e03c}", "A", 1),
+            ("HAMFEET\thamfist hamextfingeru", "HAMFEET", 0),
+            ("HAMFEET hamfist hamextfingeru", "HAMFEET", 0),
+            ("0\tHAMFEET\thamfist hamextfingeru", "HAMFEET", 0),
+            ("hamfeet;hamfist hamextfingeru", "hamfeet", 0),
+            ("A HAMSTER\thamfist hamextfingeru", "A HAMSTER", 0),
+        ];
+        for (line, gloss, odd) in cases {
+            let (entries, findings) = read(line.as_bytes()).expect(line);
+            assert_eq!(entries[0].sign.gloss, gloss, "{line}");
+            let unread = |it: &&Finding| it.message.starts_with("symbol ");
+            let unread: Vec<_> = findings.iter().filter(unread).collect();
+            assert_eq!(unread.len(), odd, "{line}: {findings:?}");
+            if odd > 0 {
+                assert!(unread[0].message.starts_with("symbol 1: "), "{unread:?}");
+            }
+        }
+        let (_, findings) = read(b"A\thamflathnd hamextfingeru").expect("read");
+        assert!(findings[0].message.contains("did you mean \"hamflathand\""));
     }
 
     #[test]

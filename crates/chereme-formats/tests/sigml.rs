@@ -304,6 +304,30 @@ fn symbols_are_read_and_written() {
 }
 
 #[test]
+fn every_spelling_of_a_text_gives_the_same_symbols() {
+    let characters = "\u{e001}\u{e020}\u{e03c}";
+    for (text, losses) in [
+        (characters, 0),
+        ("hamflathand hamextfingeru hampalmd", 0),
+        ("hamflathand\thamextfingeru\thampalmd", 0),
+        ("hamflathand, hamextfingeru,hampalmd", 0),
+        ("HamFlatHand \u{e020}\u{e03c}", 0),
+        ("U+E001 U+E020 U+E03C", 0),
+        ("\\hamflathand\\hamextfingeru\\hampalmd", 0),
+        ("hamflathand hamnosuch hamextfingeru hampalmd", 1),
+    ] {
+        let sign = Notated {
+            text: Some(text.to_owned()),
+            ..Notated::default()
+        };
+        let (written, lost) = sigml::write_symbols([&sign]);
+        assert_eq!(lost[0].len(), losses, "{text:?}: {lost:?}");
+        let (again, _) = sigml::read(&written).expect("we wrote it");
+        assert_eq!(again[0].sign.text.as_deref(), Some(characters), "{text:?}");
+    }
+}
+
+#[test]
 fn losses_of_the_symbol_form_are_reported() {
     let text = document(r#"<directedmotion direction="uol" speed="0.5"/>"#);
     let (signs, _) = sigml::read(text.as_bytes()).expect("it is SiGML");

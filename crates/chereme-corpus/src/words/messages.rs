@@ -75,6 +75,10 @@ const MESSAGES: &[(&str, &str)] = &[
         "laissé de côté ({where}, le premier : {gloss}) : {why}",
     ),
     (
+        "words that name no symbol",
+        "des mots qui ne nomment aucun symbole",
+    ),
+    (
         "there is no field or attribute {name}",
         "il n’y a ni champ ni attribut {name}",
     ),

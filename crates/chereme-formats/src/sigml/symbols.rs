@@ -4,7 +4,8 @@ use super::node::Node;
 use super::raw::{Element, shown};
 use crate::finding::Finding;
 use crate::tally::Findings;
-use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient};
+use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient,
+    spelled_symbols};
 use chereme_sign::text::nearest;
 
 /// The elements of face and body.
@@ -171,10 +172,14 @@ pub(super) fn write_sign(sign: &Notated, element: &mut Element<'static>) -> Vec<
     let printed = sign.hamnosys();
     lost.extend(printed.losses.into_iter().map(|loss| loss.message));
     let mut manual = Element::new("hamnosys_manual");
-    let symbols = printed.text.chars().filter_map(Symbol::from_char);
+    let (symbols, odd) = spelled_symbols(&printed.text);
+    if !odd.is_empty() {
+        lost.push("words that name no symbol".to_owned());
+    }
+    let elements = symbols.into_iter();
     manual
         .children
-        .extend(symbols.map(|symbol| Element::new(symbol.name())));
+        .extend(elements.map(|symbol| Element::new(symbol.name())));
     element.children.push(manual);
     lost
 }

@@ -330,6 +330,23 @@ pub fn to_names(text: &str) -> Result<Vec<&'static str>, HamnosysError> {
         .collect())
 }
 
+/// Returns the symbols of a text, whatever their spelling, and the words and characters that are none.
+#[must_use]
+pub fn spelled_symbols(text: &str) -> (Vec<Symbol>, Vec<String>) {
+    let Ok((text, words)) = in_characters(text, true) else {
+        return (Vec::new(), vec![text.to_owned()]);
+    };
+    let (mut symbols, mut odd) = (Vec::new(), words);
+    for character in text.chars() {
+        match Symbol::from_char(character) {
+            Some(symbol) => symbols.push(symbol),
+            None if character.is_whitespace() || character == char::REPLACEMENT_CHARACTER => {}
+            None => odd.push(character.to_string()),
+        }
+    }
+    (symbols, odd)
+}
+
 /// Returns the text of symbols given by their names.
 ///
 /// # Errors

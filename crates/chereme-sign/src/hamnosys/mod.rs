@@ -81,7 +81,7 @@ pub use direction::{Compass, Direction};
 pub use error::{Finding, HamnosysError};
 pub use garbled::{is_garbled, mended};
 pub use language::{BodyLanguage, LanguageChanges, LanguageError};
-pub use lex::{MAX_SYMBOLS, from_names, in_plain_symbols, to_names};
+pub use lex::{MAX_SYMBOLS, from_names, in_plain_symbols, spelled_symbols, to_names};
 pub use nonmanual::{Act, Nonmanual, NonmanualPart, NonmanualTier, TierEnd, TierKind, TierStart};
 pub use notated::Notated;
 pub use parse::{MAX_DEPTH, Transcription, parse, parse_lenient};
