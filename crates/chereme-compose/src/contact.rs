@@ -11,8 +11,8 @@ use crate::work::Work;
 mod points;
 mod restore;
 
-use points::{Anchors, PLACES, POINTS, Tracks};
-pub(crate) use restore::{BLEND, Keep, blended, mend};
+use points::{Anchors, PLACES, POINTS, SEARCHED_POINTS, Tracks};
+pub(crate) use restore::{BLEND, Keep, blended, long_repairs, mend};
 
 /// The largest distance between two touching points of hands, in metres. Captures have no skin: in one of the sign for
 /// thanks, fingertips that touch the mouth come to 5.5 cm of it, thumbs that touch to 3.1 cm.
@@ -52,6 +52,8 @@ struct Contact {
     offsets: Vec<DVec3>,
     /// The frame at which they are nearest.
     nearest: usize,
+    /// The longest shift of a wrist that repaired it, in metres.
+    repaired: f64,
 }
 
 impl Contacts {
@@ -101,6 +103,12 @@ pub(crate) struct Touch {
 }
 
 impl Contacts {
+    /// Returns the frames in which the hands touch each other.
+    pub(crate) fn between_hands(&self) -> impl Iterator<Item = usize> + '_ {
+        let between = self.found.iter().filter(|contact| contact.other.is_some());
+        between.flat_map(|contact| contact.frames.clone())
+    }
+
     /// Returns the nearest contact of a hand with the body that has a frame in `frames`, if there is one.
     pub(crate) fn with_body(&self, side: Side, frames: &Range<usize>) -> Option<Touch> {
         let of_hand = self
@@ -186,6 +194,7 @@ fn contact(tracks: &Tracks<'_>, side: Side, other: Option<Side>, run: &[Near]) -
         frames: run.first()?.frame..run.last()?.frame + 1,
         offsets: Vec::new(),
         nearest: nearest.frame,
+        repaired: 0.0,
     };
     let frames = contact.frames.clone();
     let offsets = frames.map(|frame| contact.offset(tracks, frame));
@@ -217,7 +226,7 @@ impl<'a> At<'a> {
         self.palms[usize::from(side == Side::Left)]
     }
 
-    fn hand(&self, side: Side) -> [Option<DVec3>; POINTS.len()] {
+    fn hand(&self, side: Side) -> [Option<DVec3>; SEARCHED_POINTS] {
         std::array::from_fn(|point| self.tracks.hand(side, point, self.frame))
     }
 
@@ -232,7 +241,7 @@ impl<'a> At<'a> {
         let hands = match other {
             Some(other) if is_far(self.palm(other), 2.0 * reach) => return None,
             Some(other) => self.hand(other),
-            None => [None; POINTS.len()],
+            None => [None; SEARCHED_POINTS],
         };
         let places: &[Option<DVec3>] = match other {
             Some(_) => &hands,

@@ -333,6 +333,7 @@ impl<'a> Evaluator<'a> {
             let kept = contact::mend(work, before, *keep, text);
             done.did.extend(kept);
             done.lost.extend(contact::lost(before, work, *carry));
+            done.warnings.extend(contact::long_repairs(before, text));
         }
         done.did.append(&mut given.aside);
         Ok(done)

@@ -5,15 +5,20 @@ use chereme_motion::{ModelPose, Part, Side};
 
 use crate::work::{Columns, Work};
 
-/// The points of a hand that may touch something.
-pub(super) const POINTS: [&str; 6] = [
+/// The points of a hand that may touch something; after the first [`SEARCHED_POINTS`], those that only repair a contact.
+pub(super) const POINTS: [&str; 9] = [
     "palm",
     "thumb-tip",
     "index-tip",
     "middle-tip",
     "ring-tip",
     "little-tip",
+    "hand-radial",
+    "hand-ulnar",
+    "hand-back",
 ];
+/// The number of points with which hands touch; the sides and the back of a fist come near the body in many signs.
+pub(super) const SEARCHED_POINTS: usize = 6;
 /// The places on the body that may be touched.
 pub(super) const PLACES: [&str; 12] = [
     "forehead",

@@ -8,8 +8,9 @@ use crate::arm;
 use crate::recipe::Solver;
 use crate::work::{Columns, Group, Work};
 
-/// The longest shift of a wrist for the same point of the hand to touch again, in metres.
-const SAME: f64 = 0.06;
+/// The longest shift of a wrist, in metres, that repairs a contact unnoticed: the same point of the hand touches again,
+/// and nobody is warned.
+const UNNOTICED_SHIFT: f64 = 0.03;
 /// The longest shift for any point of the hand to touch, in metres.
 const MOST: f64 = 0.12;
 /// The time in which a wrist moves to and from a restored contact, in seconds.
@@ -91,6 +92,7 @@ pub(crate) fn mend(
             } else {
                 contact.place = point;
             }
+            contact.repaired = contact.repaired.max(most);
             did.push(describe(contact, &was, side, most));
         }
         if shifts.iter().all(Option::is_none) {
@@ -109,6 +111,20 @@ pub(crate) fn mend(
         work.changed([Group::Arm(side)], &format!("{operator} (contact kept)"));
     }
     did
+}
+
+/// Returns warnings about contacts that a step repaired by a long shift of a wrist.
+pub(crate) fn long_repairs(mended: &Contacts, step: &str) -> Vec<String> {
+    let all = mended.found.iter();
+    let long = all.filter(|contact| contact.repaired > UNNOTICED_SHIFT);
+    long.map(|contact| {
+        let (point, place) = contact.names();
+        format!(
+            "{step}: a wrist is moved by {:.1} cm so that {point} and {place} touch",
+            contact.repaired * 100.0
+        )
+    })
+    .collect()
 }
 
 /// Returns the shift of the wrist of `side` at each frame of a contact, and the point of that hand that then touches:
@@ -144,11 +160,11 @@ fn shift(contact: &Contact, tracks: &Tracks<'_>, side: Side) -> Option<(Vec<DVec
         Some((displacements, most))
     };
     let (same, most) = displacements(own)?;
-    if most <= SAME {
+    if most <= UNNOTICED_SHIFT {
         return Some((same, own));
     }
-    let others = (0..POINTS.len()).filter_map(|point| Some((displacements(point)?, point)));
-    let ((best, most), point) = others.min_by(|a, b| a.0.1.total_cmp(&b.0.1))?;
+    let parts = (0..POINTS.len()).filter_map(|point| Some((displacements(point)?, point)));
+    let ((best, most), point) = parts.min_by(|a, b| a.0.1.total_cmp(&b.0.1))?;
     (most <= MOST).then_some((best, point))
 }
 

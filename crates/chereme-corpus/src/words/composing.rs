@@ -339,6 +339,69 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "opérateurs laissés de côté, car ils s’annulent ou n’en font qu’un : {n}",
     ),
     (
+        "{step}: a wrist is moved by {cm} cm so that {point} and {place} touch",
+        "{step} : un poignet est déplacé de {cm} cm pour que {point} et {place} se touchent",
+    ),
+    (
+        "both hands cannot be at {value}: it moves with them",
+        "les deux mains ne peuvent pas être ici : {value} bouge avec elles",
+    ),
+    (
+        "name one hand, such as {command}",
+        "nommez une seule main, comme {command}",
+    ),
+    (
+        "{address} has no movement of hands: {what}",
+        "{address} n’a pas de mouvement des mains : {what}",
+    ),
+    ("its skeleton has no arms", "son squelette n’a pas de bras"),
+    ("it shows a face only", "on n’y voit qu’un visage"),
+    (
+        "all joints of its arms and fingers stand still",
+        "aucune articulation des bras ni des doigts ne bouge",
+    ),
+    (
+        "name a sign in which a hand moves",
+        "nommez un signe dont une main bouge",
+    ),
+    (
+        "{address} is a signer, and a body is written signer:NAME or recording:NAME",
+        "{address} est un signeur, et un corps s’écrit signer:NOM ou recording:NOM",
+    ),
+    (
+        "{address} is a recording, and a body is written signer:NAME or recording:NAME",
+        "{address} est un enregistrement, et un corps s’écrit signer:NOM ou recording:NOM",
+    ),
+    (
+        "{address} is a sign, and a body is written signer:NAME or recording:NAME",
+        "{address} est un signe, et un corps s’écrit signer:NOM ou recording:NOM",
+    ),
+    (
+        "{address} is a signer without a recording that moves, and a body is written signer:NAME or recording:NAME",
+        "{address} est un signeur sans enregistrement de mouvement, et un corps s’écrit signer:NOM ou recording:NOM",
+    ),
+    (
+        "{address} is a signer, and the movement of a sign or a recording is wanted",
+        "{address} est un signeur, et il faut le mouvement d’un signe ou d’un enregistrement",
+    ),
+    (
+        "{address} is a signer, and notation is wanted",
+        "{address} est un signeur, et il faut une notation",
+    ),
+    (
+        "{address} is a recording, and notation is wanted",
+        "{address} est un enregistrement, et il faut une notation",
+    ),
+    (
+        "{address} is in a recording without a skeleton, and the movement of a skeleton is wanted",
+        "{address} est dans un enregistrement sans squelette, et il faut le mouvement d’un squelette",
+    ),
+    ("write {address} instead", "écrivez plutôt {address}"),
+    (
+        "reaching takes {time} s",
+        "atteindre la cible prend {time} s",
+    ),
+    (
         "{step}: a hand stays up to {cm} cm from its target",
         "{step} : une main reste jusqu’à {cm} cm de sa cible",
     ),
