@@ -158,6 +158,17 @@ pub enum Cause {
     /// The skeleton has no head that hangs on a chest.
     #[error("there is no head in this skeleton")]
     NoHead,
+    /// Both hands are asked to be at a place on the arms that move.
+    #[error("both hands cannot be at {0:?}: it moves with them")]
+    BothMove(String),
+    /// The movement shows no hand that moves.
+    #[error("{address:?} has no movement of hands: {what}")]
+    HandsStill {
+        /// Its address.
+        address: String,
+        /// What it lacks.
+        what: &'static str,
+    },
     /// A target is far beyond the body's reach.
     #[error("the target is {:.0} cm away from the {} shoulder, and the arm is {:.0} cm long", distance * 100.0, side.name(), arm * 100.0)]
     TooFar {
@@ -324,6 +335,8 @@ impl Cause {
                 "use a recording of the hands, or name its joints in a roles file"
             }
             Self::NoHead => "name its joint in a roles file",
+            Self::BothMove(_) => "name one hand, such as `place right at …`",
+            Self::HandsStill { .. } => "name a sign in which a hand moves",
             Self::NoMeaning { .. } => "choose another value, or annotate a sign that has it",
             Self::NothingFound(_) => "loosen it",
             Self::NothingToTake { .. } => "choose another sign",

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use chereme_motion::Side;
 use chereme_sign::Handedness;
 use chereme_sign::hamnosys::Notated;
 use chereme_sign::milestones::{Function, Milestones};
@@ -252,6 +253,43 @@ struct Resolver<'a> {
     answers: Answers,
 }
 
+/// The least rotation of a joint that counts as movement, in radians.
+const LEAST_TURN: f64 = 0.01;
+/// The least shift of a joint against the one above it that counts as movement, in metres.
+const LEAST_SHIFT: f64 = 1e-3;
+
+/// Returns what a piece lacks in which no joint of arms or fingers moves: it can only be a body that stands still.
+fn still_hands(material: &Material) -> Option<&'static str> {
+    let anatomy = &material.anatomy;
+    let joints = Side::BOTH.map(|side| [anatomy.arm_joints(side), anatomy.fingers(side)].concat());
+    let joints = joints.concat();
+    let moves = |joint: &usize| {
+        let channel = material.clip.channel(*joint);
+        let (turns, places) = (&channel.rotations, channel.translations.iter().flatten());
+        let first = channel
+            .translations
+            .as_ref()
+            .and_then(|places| places.first());
+        let turned = turns
+            .iter()
+            .any(|turn| turn.angle_between(turns[0]) > LEAST_TURN);
+        turned
+            || places
+                .zip(first.into_iter().cycle())
+                .any(|(at, first)| at.distance(*first) > LEAST_SHIFT)
+    };
+    if material.clip.frames() == 0 || joints.iter().any(moves) {
+        return None;
+    }
+    Some(if joints.is_empty() {
+        "its skeleton has no arms"
+    } else if !material.curves.is_empty() {
+        "it shows a face only"
+    } else {
+        "all joints of its arms and fingers stand still"
+    })
+}
+
 /// Returns the slot in which a source stores its initial movement.
 fn body_of(leaf: &Node) -> Option<Slot<MaterialInput>> {
     Some(match leaf {
@@ -323,6 +361,10 @@ impl Resolver<'_> {
         match leaf {
             Node::Sign(address) => {
                 let material = ask.sources.material(address)?;
+                if let Some(what) = still_hands(&material) {
+                    let address = material.address;
+                    return Err(Cause::HandsStill { address, what });
+                }
                 ask.keep(&SIGN, material)
             }
             Node::Spell(settings) => spell::resolve(settings, &mut ask),
