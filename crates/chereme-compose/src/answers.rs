@@ -211,7 +211,24 @@ impl Ask<'_> {
     ) -> Result<(), Cause> {
         if via.profile == Some(Profile::Learned) {
             let profile = self.sources.learned_profile()?.ok_or(Cause::NoProfile)?;
-            self.put(slot, profile);
+            let reaches = None;
+            self.put(slot, LearnedProfile { reaches, ..profile });
+        }
+        Ok(())
+    }
+
+    /// Stores the learned reaches for a gesture that takes them by default.
+    pub(crate) fn usual_reaches(
+        &mut self,
+        slot: &Slot<LearnedProfile>,
+        via: &Transition,
+    ) -> Result<(), Cause> {
+        if via.profile.is_some() {
+            return self.course(slot, via);
+        }
+        let learned = self.sources.learned_profile()?;
+        if let Some(learned) = learned.filter(|learned| learned.reaches.is_some()) {
+            self.put(slot, learned);
         }
         Ok(())
     }
@@ -281,7 +298,7 @@ impl<'a> Given<'a> {
         found.map(AsRef::as_ref).ok_or(Cause::Input)
     }
 
-    /// Returns the courses of a transition: those that it names, or the default ones.
+    /// Returns the courses of a transition: those that it names, the learned ones if there are any, or the default ones.
     pub(crate) fn course(
         &mut self,
         slot: &Slot<LearnedProfile>,
@@ -290,6 +307,7 @@ impl<'a> Given<'a> {
     ) -> Result<Courses, Cause> {
         let learned = self.get(slot);
         self.aside.extend(learned.map(course::describe));
+        let usual = learned.map_or(usual, |_| Profile::Learned);
         Courses::of(via.profile.unwrap_or(usual), learned).ok_or(Cause::NoProfile)
     }
 }

@@ -46,10 +46,20 @@ pub(crate) fn describe(learned: &LearnedProfile) -> String {
         };
         Some(format!("{} transitions of {whose}{of}", course.transitions))
     };
-    let counts = [
-        count(&learned.arms, "arms"),
-        count(&learned.fingers, "fingers"),
-    ];
+    let reaches = learned
+        .reaches
+        .as_ref()
+        .map(|reaches| reaches.course.clone());
+    let counts = match reaches {
+        Some(_) => [
+            count(&reaches, "reaching arms"),
+            count(&learned.fingers, "fingers"),
+        ],
+        None => [
+            count(&learned.arms, "arms"),
+            count(&learned.fingers, "fingers"),
+        ],
+    };
     let counts: Vec<String> = counts.into_iter().flatten().collect();
     format!("the course was learned from {}", counts.join(" and "))
 }

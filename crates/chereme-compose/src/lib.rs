@@ -93,7 +93,8 @@ pub use resolve::{
     resolve, restore,
 };
 pub use sources::{
-    Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, Letter, LetterStroke,
-    Material, Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes, Value,
+    Example, ExpressionSource, HeldValue, LearnedCourse, LearnedProfile, LearnedReaches, Letter,
+    LetterStroke, Material, Meaning, MedianTime, SourceError, Sources, Spatial, SpellingTimes,
+    Value,
 };
 pub use transfer::{Transferred, on_body};

@@ -234,7 +234,8 @@ pub struct Point {
     /// The time for which the gesture stays at its apex; the default is 0.3 s.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hold: Option<Seconds>,
-    /// The transitions of reaching and retraction; their default time is 0.5 s each.
+    /// The transitions of reaching and retraction; course and time are by default those of the corpus's captured reaches,
+    /// and no wrist is faster than captured ones.
     #[serde(default, skip_serializing_if = "Transition::is_default")]
     pub via: Transition,
     /// The signer whose body points; `None` lets the corpus choose.

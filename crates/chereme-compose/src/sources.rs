@@ -116,7 +116,7 @@ pub trait Sources {
     /// lacks.
     fn letters(&self, alphabet: Option<&str>, word: &str) -> Result<Vec<Letter>, SourceError>;
 
-    /// Returns the usual courses of the corpus's own transitions; `None` if there are too few.
+    /// Returns the usual courses of the corpus's own transitions and reaches; `None` if there are too few.
     ///
     /// # Errors
     /// [`SourceError`] if the corpus cannot be read.
@@ -151,6 +151,19 @@ pub struct LearnedProfile {
     /// The course of fingers from shape to shape; if missing, that of the arms is used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fingers: Option<LearnedCourse>,
+    /// The reaches among the transitions of the wrists, for pointing; missing if there are too few.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub reaches: Option<LearnedReaches>,
+}
+
+/// The usual reach: how a hand goes from rest to a far place.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LearnedReaches {
+    /// The course of the wrist.
+    pub course: LearnedCourse,
+    /// The median of their mean speeds, in metres per second.
+    pub speed: f64,
 }
 
 /// The usual course of transitions, as [`learn_course`](crate::learn_course) finds it.
@@ -167,10 +180,11 @@ pub struct LearnedCourse {
 }
 
 impl LearnedProfile {
-    /// Returns the course of the arms, or the fingers' if it is missing.
+    /// Returns the course of reaches, if they are known; else that of the arms, or the fingers' if it is missing.
     #[must_use]
     pub fn of_arms(&self) -> Option<&LearnedCourse> {
-        self.arms.as_ref().or(self.fingers.as_ref())
+        let reaches = self.reaches.as_ref().map(|reaches| &reaches.course);
+        reaches.or(self.arms.as_ref()).or(self.fingers.as_ref())
     }
 
     /// Returns the course of the fingers, or the arms' if it is missing.
@@ -364,6 +378,18 @@ pub enum SourceError {
         /// A similar address.
         nearest: Option<String>,
     },
+    /// Something of another kind has this name.
+    #[error("{address:?} is {kind}, and {wanted}")]
+    OtherKind {
+        /// The address as written.
+        address: String,
+        /// What has this name: `a recording`.
+        kind: &'static str,
+        /// What the recipe needs there: `notation is wanted`.
+        wanted: &'static str,
+        /// The address that would do.
+        right: Option<String>,
+    },
     /// Several things have this address.
     #[error("{address:?} could be any of {}", candidates.join(", "))]
     Ambiguous {
@@ -449,6 +475,7 @@ impl SourceError {
     pub fn meant(&self) -> Option<Meant> {
         match self {
             Self::Missing { address, nearest } => Meant::of(address, nearest.as_ref()),
+            Self::OtherKind { address, right, .. } => Meant::of(address, right.as_ref()),
             Self::UnknownValue { text, nearest, .. } => Meant::of(text, nearest.as_ref()),
             _ => None,
         }
@@ -461,6 +488,7 @@ impl SourceError {
             Self::Missing { nearest, .. } | Self::UnknownValue { nearest, .. } => {
                 format!("did you mean {:?}?", nearest.as_ref()?)
             }
+            Self::OtherKind { right, .. } => format!("write {} instead", right.as_ref()?),
             Self::Ambiguous { .. } => "name one of them".to_owned(),
             Self::NoMovement { .. } => "name a sign that was captured or generated".to_owned(),
             Self::Expression { remedy, .. } => return remedy.as_deref().cloned(),

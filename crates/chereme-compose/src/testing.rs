@@ -453,6 +453,7 @@ impl Sources for Shelf {
     fn learned_profile(&self) -> Result<Option<LearnedProfile>, SourceError> {
         Ok(Some(LearnedProfile {
             arms: None,
+            reaches: None,
             fingers: Some(LearnedCourse {
                 recordings: Vec::new(),
                 shares: vec![0.0, 0.1, 0.9, 1.0],

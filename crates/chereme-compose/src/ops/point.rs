@@ -10,6 +10,7 @@ use crate::body::Frame;
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::Done;
+use crate::ops::travel::wrist_path;
 use crate::ops::{join, place};
 use crate::outcome::{About, Note};
 use crate::poses::{self, HandPose, PoseOrigin};
@@ -17,7 +18,7 @@ use crate::recipe::Point;
 use crate::recipe::Profile;
 use crate::resolve::MaterialInput;
 use crate::resolve::PlaceInput;
-use crate::sources::LearnedProfile;
+use crate::sources::{LearnedProfile, LearnedReaches};
 use crate::work::{Group, Work, groups};
 
 /// The body that points.
@@ -45,7 +46,7 @@ pub(crate) fn resolve(settings: &Point, ask: &mut Ask<'_>) -> Result<Setting, Ca
     };
     ask.put(&WITH, poses);
     ask.spot(&AT, &settings.at)?;
-    ask.course(&VIA, &settings.via)?;
+    ask.usual_reaches(&VIA, &settings.via)?;
     Ok(setting)
 }
 
@@ -55,17 +56,23 @@ pub(crate) fn generate(
     given: &mut answers::Given<'_>,
 ) -> Result<(Work, Done), Cause> {
     let mut work = Work::of(given.material(&BODY)?);
-    let course = given.course(&VIA, &settings.via, Profile::Sigmoid)?;
+    let course = given.course(&VIA, &settings.via, Profile::MinimumJerk)?;
+    let learned = given.get(&VIA);
     let found = PointInputs {
         shape: given.get(&WITH).map(Vec::as_slice),
         place: given.get(&AT),
+        reaches: learned.and_then(|learned| learned.reaches.as_ref()),
     };
     let done = point(&mut work, settings, &found, &course)?;
     Ok((work, done.into()))
 }
 
-/// The usual time of reaching, and of retraction, in seconds.
+/// The usual time of reaching, and of retraction, in seconds, if the corpus shows too few reaches.
 const REACH: f64 = 0.5;
+/// The greatest speed of a wrist whose time nobody states, in metres per second; that of captured signers.
+const FASTEST_REACH: f64 = 1.6;
+/// The number of steps in which the speed of a reach is measured.
+const REACH_STEPS: usize = 100;
 /// The usual time of the hold between, in seconds.
 const HOLD: f64 = 0.3;
 /// The extension of the arm towards a far target, as a share of its length.
@@ -77,6 +84,8 @@ const SHORT_OF: f64 = 0.02;
 pub(crate) struct PointInputs<'a> {
     pub(crate) shape: Option<&'a [HandPose]>,
     pub(crate) place: Option<&'a PlaceInput>,
+    /// The reaches whose speed it has, if the corpus shows enough.
+    pub(crate) reaches: Option<&'a LearnedReaches>,
 }
 
 /// Points on the body of `work`, whose first frame is its posture at rest.
@@ -88,19 +97,13 @@ pub(crate) fn point(
 ) -> Result<(Vec<String>, f64), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
-    let frames = |seconds: f64| ((seconds / work.rate.frame_time()).round() as usize).max(1);
-    let reach = frames(settings.via.time.map_or(REACH, |time| time.0));
-    let hold = frames(settings.hold.map_or(HOLD, |hold| hold.0));
-    let total = 2 * reach + hold;
-    join::check_length(work, total)?;
-    work.sample(&vec![0.0; total]);
+    let step = work.rate.frame_time();
+    let frames = |seconds: f64| ((seconds / step).round() as usize).max(1);
+    work.sample(&[0.0]);
     work.notes.clear();
     let mut did = Vec::new();
-    let mut apex = Work {
-        frames: 1,
-        ..work.clone()
-    };
-    apex.sample(&[0.0]);
+    let mut shapes = Vec::new();
+    let mut apex = work.clone();
     for &side in sides {
         let pose = given
             .shape
@@ -124,29 +127,33 @@ pub(crate) fn point(
             side.name(),
             missed * 1000.0
         ));
-        note(work, side, &pose, reach..reach + hold);
+        shapes.push((side, pose));
     }
-    let groups = groups(&work.skeleton, &work.anatomy);
-    for (joint, group) in groups.iter().enumerate() {
-        let moves = sides
-            .iter()
-            .any(|&s| *group == Group::Arm(s) || *group == Group::Fingers(s));
-        if !moves {
-            continue;
+    let seconds = match settings.via.time {
+        Some(time) => time.0,
+        None => {
+            let mut way = work.clone();
+            way.sample(&[0.0; REACH_STEPS + 1]);
+            carry(&mut way, &apex, sides, courses, |step| {
+                step as f64 / REACH_STEPS as f64
+            });
+            let seconds = usual_time(&way, sides, given.reaches)?;
+            did.push(format!("reaching takes {seconds:.2} s"));
+            seconds
         }
-        let (early, course) = match group {
-            Group::Fingers(_) => (2.0, &courses.fingers),
-            _ => (1.0, &courses.arms),
-        };
-        let (rest, top) = (
-            work.channels[joint].rotations[0],
-            apex.channels[joint].rotations[0],
-        );
-        for (f, rotation) in work.channels[joint].rotations.iter_mut().enumerate() {
-            // Hands take their shape in the first half of reaching, and lose it in the last half of retraction.
-            let out = (f as f64 / reach as f64).min((total - 1 - f) as f64 / reach as f64);
-            *rotation = course.rotation(rest, top, (out * early).min(1.0));
-        }
+    };
+    let (reach, hold) = (
+        frames(seconds),
+        frames(settings.hold.map_or(HOLD, |it| it.0)),
+    );
+    let total = 2 * reach + hold;
+    join::check_length(work, total)?;
+    work.sample(&vec![0.0; total]);
+    carry(work, &apex, sides, courses, |frame| {
+        frame.min(total - 1 - frame) as f64 / reach as f64
+    });
+    for (side, pose) in shapes {
+        note(work, side, &pose, reach..reach + hold);
     }
     work.notes.push(Note {
         hand: None,
@@ -160,6 +167,45 @@ pub(crate) fn point(
         .flat_map(|&s| [Group::Arm(s), Group::Fingers(s)]);
     work.changed(changed.collect::<Vec<_>>(), &settings.to_string());
     Ok((did, 0.0))
+}
+
+/// Carries arms and hands from the posture of each frame to that of `apex`; `out` is the share of a reach at a frame.
+fn carry(
+    work: &mut Work,
+    apex: &Work,
+    sides: &[Side],
+    courses: &Courses,
+    out: impl Fn(usize) -> f64,
+) {
+    let groups = groups(&work.skeleton, &work.anatomy);
+    for (joint, group) in groups.iter().enumerate() {
+        // Hands take their shape in the first half of reaching, and lose it in the last half of retraction.
+        let (early, course) = match group {
+            Group::Fingers(side) if sides.contains(side) => (2.0, &courses.fingers),
+            Group::Arm(side) if sides.contains(side) => (1.0, &courses.arms),
+            _ => continue,
+        };
+        let top = apex.channels[joint].rotations[0];
+        for (frame, rotation) in work.channels[joint].rotations.iter_mut().enumerate() {
+            *rotation = course.rotation(*rotation, top, (out(frame) * early).min(1.0));
+        }
+    }
+}
+
+/// Returns the time of a reach in seconds: at the mean speed of captured ones, if they are known, and never so short that
+/// a wrist would be faster than those of signers. `way` goes from rest to the apex in [`REACH_STEPS`] steps.
+fn usual_time(way: &Work, sides: &[Side], reaches: Option<&LearnedReaches>) -> Result<f64, Cause> {
+    let mut seconds = reaches.map_or(REACH, |_| 0.0);
+    for &side in sides {
+        let path = wrist_path(way, side)?;
+        let step = path.windows(2).map(|two| two[0].distance(two[1]));
+        let fastest = step.fold(0.0, f64::max) * REACH_STEPS as f64;
+        let far = path[REACH_STEPS].distance(path[0]);
+        let usual = reaches.map_or(0.0, |reaches| far / reaches.speed.max(1e-3));
+        // A hundredth more, as the steps are measured and not the curve between them.
+        seconds = seconds.max(usual).max(1.01 * fastest / FASTEST_REACH);
+    }
+    Ok(seconds)
 }
 
 fn note(work: &mut Work, side: Side, pose: &HandPose, frames: std::ops::Range<usize>) {
