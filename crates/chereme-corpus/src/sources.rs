@@ -38,6 +38,12 @@ mod language;
 mod learned;
 pub(crate) mod notation;
 
+/// What recipes want by a name, in messages.
+const WANTED_BODY: &str = "a body is written signer:NAME or recording:NAME";
+const WANTED_MOVEMENT: &str = "the movement of a sign or a recording is wanted";
+const WANTED_NOTATION: &str = "notation is wanted";
+const WANTED_SKELETON: &str = "the movement of a skeleton is wanted";
+
 /// The longest stretch that a recipe accepts as a source, in microseconds.
 const LONGEST: i64 = 600_000_000;
 
@@ -142,7 +148,46 @@ impl<'a> CorpusSources<'a> {
         Ok(held)
     }
 
+    /// Returns the error for a name that belongs to something else than a recipe wants; `None` if nothing has it.
+    fn other_kind(&self, address: &str, wanted: &'static str) -> Option<SourceError> {
+        let text = |name: &Name| match name {
+            Name::Text(text) if text.parse::<i64>().is_err() => text.clone(),
+            Name::Text(text) => format!("{text:?}"),
+            Name::Number(number) => number.to_string(),
+        };
+        let signer = |name: &Name| {
+            address::signer(self.connection, name).ok()?;
+            Some(("a signer", format!("signer:{}", text(name))))
+        };
+        let recording = |name: &Name| {
+            address::recording(self.connection, name).ok()?;
+            Some(("a recording", format!("recording:{}", text(name))))
+        };
+        let (kind, named) = match address.parse().ok()? {
+            Address::Signer(name) => signer(&name)?,
+            Address::Recording(name) => recording(&name)?,
+            Address::Gloss(name) => {
+                let name = Name::Text(name);
+                signer(&name).or_else(|| recording(&name)).or_else(|| {
+                    let sign = self.has(address).then(|| address.to_owned());
+                    sign.map(|sign| ("a sign", sign))
+                })?
+            }
+            sign => ("a sign", self.has(address).then(|| sign.to_string())?),
+        };
+        Some(SourceError::OtherKind {
+            address: address.to_owned(),
+            kind,
+            wanted,
+            right: Some(named).filter(|_| wanted == WANTED_BODY && kind != "a sign"),
+        })
+    }
+
+    /// Returns the error for the body of something that is neither a signer nor a recording with movement.
     fn no_signer(&self, address: Option<&str>) -> SourceError {
+        if let Some(error) = address.and_then(|address| self.other_kind(address, WANTED_BODY)) {
+            return error;
+        }
         let signers = recordings::signers(self.connection).unwrap_or_default();
         let known = signers
             .into_iter()
@@ -240,10 +285,18 @@ impl Sources for CorpusSources<'_> {
             return notation::own_body().map_err(|error| unreadable(&error));
         }
         match self.stretch(address) {
-            Ok(stretch) => self.load(&stretch).map_err(|error| unreadable(&error)),
+            Ok(stretch) => match self.load(&stretch) {
+                Err(error) if error.is_lack() => Err(SourceError::OtherKind {
+                    address: address.to_owned(),
+                    kind: "in a recording without a skeleton",
+                    wanted: WANTED_SKELETON,
+                    right: None,
+                }),
+                loaded => loaded.map_err(|error| unreadable(&error)),
+            },
             Err(error) => self
                 .animated(address)?
-                .ok_or_else(|| missing(self, address, &error)),
+                .ok_or_else(|| missing(self, address, WANTED_MOVEMENT, &error)),
         }
     }
 
@@ -268,8 +321,9 @@ impl Sources for CorpusSources<'_> {
                 return notation::own_body().map_err(|error| unreadable(&error));
             }
             Some(Ok(Address::Recording(name))) => {
-                let recording = address::recording(self.connection, &name)
-                    .map_err(|error| missing(self, signer.unwrap_or_default(), &error))?;
+                let recording = address::recording(self.connection, &name).map_err(|error| {
+                    missing(self, signer.unwrap_or_default(), WANTED_BODY, &error)
+                })?;
                 return standing(self.connection, recording)
                     .and_then(floor::grounded)
                     .map_err(|error| unreadable(&error));
@@ -321,9 +375,11 @@ impl Sources for CorpusSources<'_> {
         };
         find()
             .map_err(|error| unreadable(&error))?
-            .ok_or_else(|| SourceError::Missing {
-                address: signer.unwrap_or("a recording with movement").to_owned(),
-                nearest: None,
+            .ok_or_else(|| SourceError::OtherKind {
+                address: signer.unwrap_or_default().to_owned(),
+                kind: "a signer without a recording that moves",
+                wanted: WANTED_BODY,
+                right: None,
             })
     }
 
@@ -461,8 +517,13 @@ fn unreadable(error: &Error) -> SourceError {
     SourceError::Unreadable(error.to_string())
 }
 
-/// Returns the error for an address without movement, which depends on what the address names instead.
-fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceError {
+/// Returns the error for an address without what is wanted, which depends on what the address names instead.
+fn missing(
+    sources: &CorpusSources<'_>,
+    address: &str,
+    wanted: &'static str,
+    error: &Error,
+) -> SourceError {
     let own = address.to_owned();
     let parsed: Option<Address> = address.parse().ok();
     let sign = match &parsed {
@@ -484,7 +545,11 @@ fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceE
                 .collect(),
         },
         None if parsed.is_none() => unreadable(error),
+        None if error.is_lack() => SourceError::NoMovement { address: own },
         None => {
+            if let Some(other) = sources.other_kind(address, wanted) {
+                return other;
+            }
             let glosses = signs::glosses(sources.connection).unwrap_or_default();
             let recordings = recordings::recordings(sources.connection).unwrap_or_default();
             let names = recordings.iter().map(|row| row.name.as_str());
@@ -493,6 +558,60 @@ fn missing(sources: &CorpusSources<'_>, address: &str, error: &Error) -> SourceE
                 address: own,
                 nearest: near.map(str::to_owned),
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::consent::tests::corpus;
+
+    #[test]
+    fn a_name_of_something_else_is_refused_with_its_kind() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut corpus = corpus(folder.path());
+        for (recipe, kind, right) in [
+            (
+                "point right at left on bol",
+                "\"bol\" is a recording, and a body is written",
+                "write recording:bol instead",
+            ),
+            (
+                "hamnosys \"hamfist\" on Ada",
+                "\"Ada\" is a signer, and a body is written",
+                "write signer:Ada instead",
+            ),
+            (
+                "spell OR on token:1",
+                "\"token:1\" is a sign, and a body",
+                "",
+            ),
+            ("Ada | reverse", "\"Ada\" is a signer, and the movement", ""),
+            (
+                "BOL then signer:Ada",
+                "is a signer, and the movement of a sign",
+                "",
+            ),
+            (
+                "sigml Ada",
+                "\"Ada\" is a signer, and notation is wanted",
+                "",
+            ),
+            (
+                "point right at left on nobody",
+                "\"nobody\" is not in the corpus",
+                "",
+            ),
+            ("MOON | reverse", "\"MOON\" is not in the corpus", ""),
+        ] {
+            let error = corpus.preview(recipe).expect_err(recipe);
+            assert!(error.to_string().contains(kind), "{recipe}: {error}");
+            let remedy = error.remedy().map(|it| it.text().to_owned());
+            let remedy = remedy.unwrap_or_default();
+            assert!(remedy.contains(right), "{recipe}: {remedy}");
+            let french = crate::words::message(&error.to_string(), crate::words::Language::French);
+            let french = french.expect(recipe);
+            assert!(!french.contains(" is "), "{recipe}: {french}");
         }
     }
 }

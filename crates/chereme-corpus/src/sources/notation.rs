@@ -13,7 +13,7 @@ use chereme_sign::Handedness;
 use chereme_sign::hamnosys::{self, Notated};
 use sha2::{Digest, Sha256};
 
-use super::{CorpusSources, missing, unreadable};
+use super::{CorpusSources, WANTED_NOTATION, missing, unreadable};
 use crate::address::{self, Address, Name};
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
@@ -56,7 +56,7 @@ impl CorpusSources<'_> {
                 let address = name.to_owned();
                 return Err(SourceError::NoNotation { address });
             }
-            return Err(missing(self, name, &error));
+            return Err(missing(self, name, WANTED_NOTATION, &error));
         }
         let mut signs = Vec::new();
         for part in name.split(NEXT) {
@@ -66,7 +66,7 @@ impl CorpusSources<'_> {
     }
 
     /// Returns whether a name belongs to a sign or a token, notated or not.
-    fn has(&self, name: &str) -> bool {
+    pub(super) fn has(&self, name: &str) -> bool {
         match name.parse() {
             Ok(Address::Gloss(gloss) | Address::Sign(Name::Text(gloss))) => {
                 address::sign(self.connection, &gloss).is_ok()
