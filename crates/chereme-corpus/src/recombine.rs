@@ -623,7 +623,10 @@ fn moving_inputs(resolved: &Resolved) -> impl Iterator<Item = (&String, &String)
 }
 
 /// Returns the recording and the token at an input's address.
-fn source_rows(connection: &Connection, address: &str) -> Result<(Option<i64>, Option<i64>)> {
+pub(crate) fn source_rows(
+    connection: &Connection,
+    address: &str,
+) -> Result<(Option<i64>, Option<i64>)> {
     Ok(match address.parse()? {
         Address::Token(token) => (signs::token(connection, token)?.recording_id, Some(token)),
         Address::Recording(Name::Number(recording)) => (Some(recording), None),

@@ -13,6 +13,7 @@ use crate::progress::Progress;
 use crate::search::SearchOptions;
 
 use super::names::names;
+use super::source::MovementSource;
 
 /// The most minimal pairs that a sign lists.
 const MOST_PAIRS: usize = 40;
@@ -36,6 +37,8 @@ pub(super) struct Entry {
     pub(super) person: Option<usize>,
     /// Whether it has movement, and whether that may be shown.
     pub(super) moves: Moves,
+    /// What its movement comes from.
+    pub(super) source: MovementSource,
     /// Minimal pairs: the other entry, and the field in which they differ.
     pub(super) pairs: Vec<(usize, String)>,
 }
@@ -117,6 +120,7 @@ pub(super) fn collect(
             notes: remarks.filter(|_| notes),
             values: signs::values(connection, token.id)?,
             coding: corpus.coding_of(&token)?,
+            source: MovementSource::of_token(connection, &token)?,
             token,
             gloss,
             terms,

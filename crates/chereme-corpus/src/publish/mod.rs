@@ -12,6 +12,7 @@ mod motion;
 mod names;
 mod offline;
 mod pages;
+mod source;
 mod words;
 
 use std::collections::BTreeMap;

@@ -2,7 +2,6 @@
 
 use std::fmt::Write as _;
 
-use crate::Origin;
 use crate::db::columns::ValueState;
 use crate::inventories::StoredInventory;
 use crate::map::escaped;
@@ -11,6 +10,7 @@ use crate::page::{filled, quoted};
 use super::entries::{Entry, Moves};
 use super::facets::known;
 use super::names::in_address;
+use super::source::MovementSource;
 use super::words::{self, both};
 
 const INDEX: &str = include_str!("page/index.html");
@@ -186,13 +186,14 @@ impl Site<'_> {
 
     /// Returns the origin of a sign's movement, the number of its signer, and the body on which it is shown.
     fn origin(&self, entry: &Entry, shown: bool) -> String {
-        let words = match (entry.moves, entry.token.origin) {
+        let words = match (entry.moves, entry.source) {
             (Moves::Withheld, _) => words::HELD,
             (Moves::Never, _) => words::LISTED,
             (Moves::Public, _) if !shown => words::UNSHOWN,
-            (_, Origin::Captured) => words::CAPTURED,
-            (_, Origin::Made) => words::MADE,
-            _ => words::GENERATED,
+            (_, MovementSource::Capture) => words::CAPTURED,
+            (_, MovementSource::Captures) => words::MADE,
+            (_, MovementSource::Notation) => words::NOTATED,
+            (_, MovementSource::Program) => words::GENERATED,
         };
         let mut text = both(&words);
         if let Some(person) = entry.person.filter(|_| shown) {

@@ -39,6 +39,10 @@ pub(super) const MADE: Pair = [
     "Movement generated from recorded movement; nobody signed it so",
     "Mouvement généré à partir d’un mouvement enregistré ; personne ne l’a signé ainsi",
 ];
+pub(super) const NOTATED: Pair = [
+    "Movement generated from notation; nobody signed it so",
+    "Mouvement généré à partir d’une notation ; personne ne l’a signé ainsi",
+];
 pub(super) const LISTED: Pair = ["Without movement", "Sans mouvement"];
 pub(super) const UNSHOWN: Pair = [
     "This movement cannot be shown: its skeleton has no two arms",
