@@ -7,6 +7,7 @@ use chereme_sign::inventory::Landmark;
 
 use crate::recipe::{HandPoint, Leg, Spot};
 use crate::sources::Spatial;
+use crate::stroke::SignStroke;
 use crate::units::{Length, towards};
 use crate::work::Work;
 
@@ -191,13 +192,14 @@ pub(crate) fn hand_point(
         .or(wrist)
 }
 
-/// Returns the mean position of a point of the hands while they hold their placements, or over all of the movement
-/// if no placement is annotated.
+/// Returns the mean position of a point of the hands while they hold their placements, or over the stroke if no
+/// placement is annotated.
 pub(crate) fn mean_point(work: &Work, sides: &[Side], point: HandPoint) -> Option<DVec3> {
     let each: Vec<DVec3> = sides
         .iter()
         .filter_map(|&side| {
-            let frames = placed(work, side).unwrap_or(0..work.frames);
+            let stroke = || SignStroke::of_work(work).ok().map(|stroke| stroke.frames);
+            let frames = placed(work, side).or_else(stroke)?;
             mean(work, frames, |model| hand_point(work, model, side, point))
         })
         .collect();

@@ -60,6 +60,7 @@ pub mod recipe;
 mod resolve;
 mod simplify;
 pub mod sources;
+mod stroke;
 #[cfg(test)]
 mod testing;
 #[cfg(test)]

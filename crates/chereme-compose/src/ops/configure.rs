@@ -25,6 +25,7 @@ use crate::error::RecipeError;
 use crate::ops::{Description, Done, Operator, Syntax};
 use crate::recipe::{Choice, Profile, Transition};
 use crate::sources::LearnedProfile;
+use crate::stroke::SignStroke;
 use crate::text::{Parsed, Parser, list};
 use crate::units::Hands;
 
@@ -210,7 +211,7 @@ pub(crate) fn configure(
             hand: Some(side),
             about: About::Component(Component::Configuration, None),
             value: Reading::Unset,
-            span: work.span(),
+            span: work.rate.span(SignStroke::of_work(work)?.frames),
             origin: operator.to_owned(),
         });
         held.push(work.notes.len() - 1);

@@ -1,6 +1,7 @@
 //! `from … to …`: moves directional verbs to other places.
 
 use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
 
 use chereme_motion::Side;
 use chereme_motion::glam::{DQuat, DVec3};
@@ -19,6 +20,7 @@ use crate::ops::travel::{STILL, moved, wrist_path};
 use crate::ops::{Description, Done, Field, FieldSetting, Operator, Syntax, say};
 use crate::recipe::{Solver, Spot};
 use crate::resolve::PlaceInput;
+use crate::stroke::SignStroke;
 use crate::text::{Parsed, Parser, list, option};
 use crate::units::{Direction, Hands};
 use crate::work::{Columns, Work};
@@ -156,14 +158,15 @@ struct Sent {
 }
 
 impl Sent {
-    fn of(work: &Work, side: Side) -> Result<Self, Cause> {
+    /// Follows a hand from the first of two frames to the second.
+    fn of(work: &Work, side: Side, ends: [usize; 2]) -> Result<Self, Cause> {
         let chain = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?;
         let columns = Columns::of(work, [chain.upper, chain.hand]);
         let shoulder = columns.positions(chain.upper);
         Ok(Self {
             side,
             path: columns.positions(chain.hand).to_vec(),
-            shoulders: [shoulder[0], shoulder[work.frames - 1]],
+            shoulders: ends.map(|frame| shoulder[frame]),
             arm: arm_length(work, side).ok_or(Cause::NoArm(side))?,
         })
     }
@@ -190,8 +193,8 @@ impl Sent {
 const REACH: f64 = 0.95;
 
 /// Returns the hands to move: of two hands only the moving one, if the other stays still and away from it.
-fn sent(work: &Work, sides: &[Side]) -> Result<Vec<Sent>, Cause> {
-    let all = sides.iter().map(|&side| Sent::of(work, side));
+fn sent(work: &Work, sides: &[Side], ends: [usize; 2]) -> Result<Vec<Sent>, Cause> {
+    let all = sides.iter().map(|&side| Sent::of(work, side, ends));
     let mut all = all.collect::<Result<Vec<_>, _>>()?;
     if let [one, other] = all.as_slice() {
         let pairs = one.path.iter().zip(&other.path);
@@ -214,12 +217,13 @@ pub(crate) fn indicate(
     places: [Option<&PlaceInput>; 2],
     operator: &str,
 ) -> Result<(Vec<String>, f64), Cause> {
-    let hands = sent(work, settings.hand.sides(work.handedness))?;
+    let stroke = SignStroke::of_work(work)?;
+    let ends = [stroke.frames.start, stroke.frames.end - 1];
+    let hands = sent(work, settings.hand.sides(work.handedness), ends)?;
     let sides: Vec<Side> = hands.iter().map(|hand| hand.side).collect();
     let frame = place::frame(work, &sides)?;
     let middle =
         |f: usize| hands.iter().map(|hand| hand.path[f]).sum::<DVec3>() / hands.len() as f64;
-    let ends = [0, work.frames - 1];
     let [start, end] = ends.map(middle);
     let mut did = Vec::new();
     let mut spot = |at: usize, now: DVec3| -> Result<DVec3, Cause> {
@@ -248,7 +252,7 @@ pub(crate) fn indicate(
         Ok(near.lerp(whole, share))
     };
     let (from, to) = (spot(0, start)?, spot(1, end)?);
-    let shares = travelled(&(0..work.frames).map(middle).collect::<Vec<_>>());
+    let shares = travelled(&stroke.frames.clone().map(middle).collect::<Vec<_>>());
     let turn = level_turn(end - start, to - from);
     let mut worst = Reach::default();
     for Sent { side, path, .. } in &hands {
@@ -258,12 +262,16 @@ pub(crate) fn indicate(
         let turned: Vec<DQuat> = columns
             .rotations(chain.hand)
             .iter()
-            .map(|q| turn * *q)
+            .enumerate()
+            .map(|(frame, hand)| stroke.turn_share(frame, turn) * *hand)
             .collect();
         let targets: Vec<DVec3> = (0..work.frames)
-            .map(|f| {
-                let line = start.lerp(end, shares[f]);
-                from.lerp(to, shares[f]) + turn * (path[f] - line)
+            .map(|frame| {
+                let nearest = stroke.nearest_frame(frame);
+                let share = shares[nearest - stroke.frames.start];
+                let (old, new) = (start.lerp(end, share), from.lerp(to, share));
+                let moved = new + turn * (path[nearest] - old) - path[nearest];
+                stroke.point_between(frame, path[frame], path[frame] + moved)
             })
             .collect();
         let solver = Solver::Analytic;
@@ -277,7 +285,7 @@ pub(crate) fn indicate(
         let value = input.and_then(|input| input.value.as_deref());
         let Some(value) = value else { continue };
         for &side in &sides {
-            let frames = stays(work, side, at == 1)?;
+            let frames = stays(work, side, &stroke, at == 1)?;
             let what = (Component::Placement, None);
             say::record(work, side, what, value, frames, operator);
         }
@@ -287,23 +295,23 @@ pub(crate) fn indicate(
         start.distance(end) * 100.0,
         from.distance(to) * 100.0
     ));
+    did.extend(stroke.describe_rests(work));
     did.extend(describe_reach(&worst));
     Ok((did, worst.residual))
 }
 
-/// Returns the frames at the start, or at the end, in which a wrist keeps its position.
-fn stays(work: &Work, side: Side, end: bool) -> Result<std::ops::Range<usize>, Cause> {
-    let path = wrist_path(work, side)?;
-    let last = path.len().saturating_sub(1);
-    let near = |from: usize| {
-        let from = path[from];
-        move |at: &&DVec3| at.distance(from) < 2.0 * STILL
-    };
+/// Returns the frames at the start, or at the end, of the stroke in which a wrist keeps its position.
+fn stays(work: &Work, side: Side, stroke: &SignStroke, end: bool) -> Result<Range<usize>, Cause> {
+    let frames = stroke.frames.clone();
+    let path = &wrist_path(work, side)?[frames.clone()];
+    let near = |from: DVec3| move |at: &&DVec3| at.distance(from) < 2.0 * STILL;
     Ok(if end {
+        let last = path[path.len() - 1];
         let count = path.iter().rev().take_while(near(last)).count();
-        path.len() - count..path.len()
+        frames.end - count..frames.end
     } else {
-        0..path.iter().take_while(near(0)).count()
+        let count = path.iter().take_while(near(path[0])).count();
+        frames.start..frames.start + count
     })
 }
 

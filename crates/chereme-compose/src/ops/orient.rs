@@ -10,6 +10,7 @@ use crate::body::Frame;
 use crate::error::Cause;
 use crate::ops::{Description, place, say};
 use crate::recipe::Solver;
+use crate::stroke::SignStroke;
 use crate::units::towards;
 use crate::work::{Columns, Group, Work};
 use std::fmt::{self, Display, Formatter};
@@ -84,6 +85,10 @@ impl Syntax for Orient {
             Text::new(
                 "neither palm nor fingers nor a turn is given",
                 "ni la paume, ni les doigts, ni une rotation ne sont donnés",
+            ),
+            Text::new(
+                "the palm faces across the fingers, so both cannot have the same direction or opposite ones",
+                "la paume est tournée en travers des doigts : ils ne peuvent avoir ni la même direction, ni des directions opposées",
             ),
             Text::new("\"about\" and a direction", "\"about\" et une direction"),
             Text::new(
@@ -161,6 +166,14 @@ impl Operator for Orient {
                 check::directions(Self::NAME, directions)?;
             }
         }
+        if let (Some(palm), Some(fingers)) = (towards(&self.palm), towards(&self.fingers))
+            && palm.cross(fingers).length() < 1e-6
+        {
+            return Err(RecipeError::Empty {
+                step: Self::NAME,
+                what: "the palm faces across the fingers, so both cannot have the same direction or opposite ones",
+            });
+        }
         let angle = |turn: &Turn| turn.angle.0;
         let mut angles = self.by.iter().map(angle);
         angles.try_for_each(|angle| check::range(Self::NAME, "the angle", angle, -360.0, 360.0))
@@ -178,8 +191,8 @@ impl Operator for Orient {
 /// The largest bend of wrists, in degrees: flexion reaches about 80, extension 70.
 const MOST_BEND: f64 = 85.0;
 
-/// Applies one rotation in the world to each hand over the whole movement, so that in its middle palm and fingers have
-/// the wanted directions.
+/// Applies one rotation in the world to each hand over the whole stroke, so that in its middle palm and fingers have the
+/// wanted directions.
 pub(crate) fn orient(
     work: &mut Work,
     settings: &Orient,
@@ -187,13 +200,18 @@ pub(crate) fn orient(
 ) -> Result<(Vec<String>, f64), Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
+    let stroke = SignStroke::of_work(work)?;
+    let middle = stroke.middle_frame();
     let mut worst = Reach::default();
     let mut did = Vec::new();
     for &side in sides {
-        let turn = turn(work, &frame, side, settings)?;
+        let turn = turn(work, &frame, middle, side, settings)?;
         let hand = work.anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
         let columns = Columns::of(work, [hand]);
-        let hands: Vec<DQuat> = columns.rotations(hand).iter().map(|q| turn * *q).collect();
+        let hands = columns.rotations(hand).iter().enumerate();
+        let hands: Vec<DQuat> = hands
+            .map(|(at, hand)| stroke.turn_share(at, turn) * *hand)
+            .collect();
         let targets = columns.positions(hand).to_vec();
         let reach = arm::move_wrist(
             work,
@@ -218,8 +236,9 @@ pub(crate) fn orient(
         component == Component::Orientation
     });
     for &side in sides {
-        record_directions(work, &frame, side, operator);
+        record_directions(work, &frame, middle, side, operator);
     }
+    did.extend(stroke.describe_rests(work));
     work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
     Ok((did, worst.residual))
 }
@@ -228,15 +247,14 @@ pub(crate) fn orient(
 /// these directions still hold.
 const SAME: f64 = 0.5;
 
-/// Notes the directions of palm and fingers around the middle of the movement.
-fn record_directions(work: &mut Work, frame: &Frame, side: Side, operator: &str) {
+/// Notes the directions of palm and fingers around the frame `middle`.
+fn record_directions(work: &mut Work, frame: &Frame, middle: usize, side: Side, operator: &str) {
     let directions = |work: &Work, at: usize| {
         let model = ModelPose::of(&work.skeleton, &work.pose(at));
         let fingers = work.anatomy.hand_direction(side, &model)?;
         let palm = work.anatomy.palm_normal(side, &model)?;
         Some([fingers, palm].map(|direction| frame.to_body(direction)))
     };
-    let middle = work.frames / 2;
     let Some([fingers, palm]) = directions(work, middle) else {
         return;
     };
@@ -284,9 +302,15 @@ fn wrist_bend(work: &Work, side: Side) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// Returns the rotation in model space for the settings.
-fn turn(work: &Work, frame: &Frame, side: Side, settings: &Orient) -> Result<DQuat, Cause> {
-    let model = ModelPose::of(&work.skeleton, &work.pose(work.frames / 2));
+/// Returns the rotation in model space for the settings at the frame `middle`.
+fn turn(
+    work: &Work,
+    frame: &Frame,
+    middle: usize,
+    side: Side,
+    settings: &Orient,
+) -> Result<DQuat, Cause> {
+    let model = ModelPose::of(&work.skeleton, &work.pose(middle));
     let anatomy = &work.anatomy;
     let hand = anatomy.arm(side).ok_or(Cause::NoArm(side))?.hand;
     let none = || Cause::NoFingers(side);

@@ -7,14 +7,14 @@ use chereme_sign::words::Text;
 
 use crate::arm::{self, HELP_FROM, Reach};
 use crate::body::{self, Frame};
-use crate::contact::{self, Touch};
 use crate::error::Cause;
 use crate::ops::{Description, clear, say};
-use crate::outcome::About;
 use crate::recipe::{HandPoint, Solver};
 use crate::resolve::PlaceInput;
+use crate::stroke::SignStroke;
 use crate::work::{Columns, Group, Work};
 use std::fmt::{self, Display, Formatter};
+use std::ops::Range;
 
 use chereme_sign::Handedness;
 use serde::{Deserialize, Serialize};
@@ -29,11 +29,16 @@ use crate::sources::Material;
 use crate::text::{Name, Parsed, Parser, list, option, point_text};
 use crate::units::{Direction, Hands, Length};
 
+mod anchor;
+
+use anchor::anchor;
+
 /// Settings of `place both by left 25cm`, `place right at chin`, `place left near BOL`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Place {
-    /// The hands that move; two hands move by the same displacement.
+    /// The hands that move; two hands move by the same displacement, but each to its own side of a place on both
+    /// sides, such as a shoulder.
     #[serde(default = "crate::recipe::both")]
     pub hand: Hands,
     /// The goal.
@@ -130,6 +135,22 @@ impl Syntax for Place {
                 "la clavicule a aidé dans {n} images, au-delà de {share} de la longueur du bras",
             ),
             Text::new("moved {way}", "déplacé : {way}"),
+            Text::new(
+                "the {side} hand is moved {way}",
+                "la main {side} est déplacée : {way}",
+            ),
+            Text::new(
+                "the rest before {time} stays as it is",
+                "le repos avant {time} reste tel quel",
+            ),
+            Text::new(
+                "the rest after {time} stays as it is",
+                "le repos après {time} reste tel quel",
+            ),
+            Text::new(
+                "the rest before {start} and after {end} stays as it is",
+                "le repos avant {start} et après {end} reste tel quel",
+            ),
             Text::new(
                 "the right hand is kept out of head and trunk: moved by up to {rest}",
                 "la main droite est tenue hors de la tête et du tronc : déplacée de {rest}",
@@ -309,11 +330,7 @@ impl Operator for Place {
     }
 
     fn apply(&self, work: &mut Work, given: &mut Given<'_>) -> Result<Done, Cause> {
-        let (did, residual, moved) = place(work, self, given.get(&TO), given.text)?;
-        Ok(Done {
-            moved: Some(moved.to_array()),
-            ..(did, residual).into()
-        })
+        place(work, self, given.get(&TO), given.text)
     }
 
     fn contacts(&self, handedness: Handedness) -> Option<(Carry, Keep)> {
@@ -389,86 +406,165 @@ pub(crate) fn shown_by(
 /// The distance in metres of one of two hands from the place of their middle, beyond which the hand is not at the place.
 const APART: f64 = 0.25;
 
-/// Moves the hands; returns a description of the effects, the residual, and the displacement in body space, in
-/// metres.
-pub(crate) fn place(
+/// Hands that move together.
+struct HandShift<'a> {
+    sides: &'a [Side],
+    by: DVec3,
+    /// The frames in which they are at the place.
+    frames: Range<usize>,
+    /// The goal, and the point of the hands that comes to it; `None` for a mere displacement.
+    spot: Option<(DVec3, HandPoint)>,
+}
+
+/// A placement in the making.
+struct PlacementPlan<'a> {
+    settings: &'a Place,
+    input: Option<&'a PlaceInput>,
+    frame: Frame,
+}
+
+impl<'a> PlacementPlan<'a> {
+    /// Returns the displacement of hands that move together, and adds the moment that determines it to a description.
+    fn shift(
+        &self,
+        work: &Work,
+        sides: &'a [Side],
+        did: &mut Vec<String>,
+    ) -> Result<HandShift<'a>, Cause> {
+        let frame = &self.frame;
+        let goal = match (&self.settings.to, self.input) {
+            (Goal::By(legs), _) => {
+                return Ok(HandShift {
+                    sides,
+                    by: frame.sum(legs),
+                    frames: SignStroke::of_work(work)?.frames,
+                    spot: None,
+                });
+            }
+            (Goal::AtPoint(at), _) => frame.point(at),
+            (Goal::Near { by, .. }, Some(input)) => {
+                spatial(work, frame, input, sides[0])? + frame.sum(by)
+            }
+            (_, Some(input)) => spatial(work, frame, input, sides[0])?,
+            (_, None) => return Err(Cause::Input),
+        };
+        let anchor = anchor(work, sides, self.settings.with)?;
+        let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
+        did.extend(anchor.describe(work));
+        Ok(HandShift {
+            sides,
+            by: goal - now,
+            spot: Some((goal, anchor.point)),
+            frames: anchor.frames,
+        })
+    }
+}
+
+/// Returns whether a place is on both sides of the body, so that each of two hands has its own. Fails for places on
+/// the hands and forearms that move to it.
+fn is_sided(place: &PlaceInput) -> Result<bool, Cause> {
+    let landmark = &place.at.landmark;
+    let sided = ["ipsi-", "contra-"].map(|side| landmark.strip_prefix(side));
+    let sided = sided[0].or(sided[1]);
+    let own = ["elbow", "forearm", "wrist", "palm"];
+    match sided {
+        Some(name) if own.contains(&name) || name.contains("hand-") || name.ends_with("-tip") => {
+            let value = place.value.clone();
+            Err(Cause::BothMove(value.unwrap_or_else(|| name.to_owned())))
+        }
+        sided => Ok(sided.is_some()),
+    }
+}
+
+/// Moves the hands.
+fn place(
     work: &mut Work,
     settings: &Place,
     input: Option<&PlaceInput>,
     operator: &str,
-) -> Result<(Vec<String>, f64, DVec3), Cause> {
+) -> Result<Done, Cause> {
     let sides = settings.hand.sides(work.handedness);
     let frame = frame(work, sides)?;
-    let mut frames = 0..work.frames;
-    let mut anchor_report = Vec::new();
-    let mut spot = None;
-    let by = match &settings.to {
-        Goal::By(legs) => frame.sum(legs),
-        to => {
-            let goal = match (to, input) {
-                (Goal::AtPoint(at), _) => frame.point(at),
-                (Goal::Near { by, .. }, Some(input)) => {
-                    spatial(work, &frame, input, sides[0])? + frame.sum(by)
-                }
-                (_, Some(input)) => spatial(work, &frame, input, sides[0])?,
-                (_, None) => return Err(Cause::Input),
-            };
-            let anchor = anchor(work, sides, settings.with);
-            let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
-            anchor_report.extend(anchor.describe(work));
-            frames = anchor.frames;
-            spot = Some((goal, anchor.point));
-            goal - now
-        }
+    let apart = match input.filter(|_| sides.len() > 1) {
+        Some(place) => is_sided(place)?,
+        None => false,
     };
+    let mut notes = Vec::new();
+    let mut shifts = Vec::new();
+    let placing = PlacementPlan {
+        settings,
+        input,
+        frame,
+    };
+    for together in sides.chunks(if apart { 1 } else { sides.len() }) {
+        shifts.push(placing.shift(work, together, &mut notes)?);
+    }
     let near = matches!(&settings.to, Goal::Near { by, .. } if !by.is_empty());
     let value = input
         .and_then(|input| input.value.clone())
         .filter(|_| !near);
     let before = work.clone();
-    let mut reach = shift(work, sides, by, settings.solver)?;
+    let rest = SignStroke::of_work(work)?.describe_rests(work);
+    let mut reach = wrists(work, sides, settings.solver, |side, _, at| {
+        let own = shifts.iter().find(|shift| shift.sides.contains(&side));
+        at + own.map_or(DVec3::ZERO, |shift| shift.by)
+    })?;
     let mut kept_out = Vec::new();
-    if !matches!(settings.to, Goal::By(_)) {
-        for &side in sides {
-            let cleared = clear::clear(work, &before, side, settings.solver);
-            let Some(cleared) = cleared else { continue };
-            reach.residual = reach.residual.max(cleared.at(&frames));
-            kept_out.push(cleared.describe(work, side, &frames));
+    let mut moved = Vec::new();
+    for shift in &shifts {
+        let (by, frames) = (shift.by, &shift.frames);
+        for &side in shift.sides {
+            if !matches!(settings.to, Goal::By(_))
+                && let Some(cleared) = clear::clear(work, &before, side, settings.solver)
+            {
+                reach.residual = reach.residual.max(cleared.at(frames));
+                kept_out.push(cleared.describe(work, side, frames));
+            }
         }
-    }
-    for &side in sides {
-        // Of two hands far apart only their middle is at the place.
-        let apart = spot
-            .filter(|_| sides.len() > 1 && value.is_some())
-            .and_then(|(goal, point)| {
-                let own = body::mean_point(work, &[side], point)?;
-                Some(own.distance(goal)).filter(|away| *away > APART)
-            });
-        if let Some(away) = apart {
-            anchor_report.push(format!(
-                "the {} hand is {:.1} cm away from the place, so its placement is left open",
-                side.name(),
-                away * 100.0
-            ));
+        for &side in shift.sides {
+            // Of two hands far apart only their middle is at the place.
+            let away = shift
+                .spot
+                .filter(|_| shift.sides.len() > 1 && value.is_some())
+                .and_then(|(goal, point)| {
+                    let own = body::mean_point(work, &[side], point)?;
+                    Some(own.distance(goal)).filter(|away| *away > APART)
+                });
+            if let Some(away) = away {
+                notes.push(format!(
+                    "the {} hand is {:.1} cm away from the place, so its placement is left open",
+                    side.name(),
+                    away * 100.0
+                ));
+            }
+            if by != DVec3::ZERO || value.is_some() {
+                let value = value.as_deref().filter(|_| away.is_none());
+                say::placed(work, side, value, frames.clone(), operator);
+            }
         }
-        if by != DVec3::ZERO || value.is_some() {
-            let value = value.as_deref().filter(|_| apart.is_none());
-            say::placed(work, side, value, frames.clone(), operator);
+        if by != DVec3::ZERO {
+            let arms = shift.sides.iter().map(|&side| Group::Arm(side));
+            work.changed(arms, operator);
         }
+        let way = directions(frame.to_body(by) * 100.0);
+        moved.push(match apart {
+            true => format!("the {} hand is moved {way}", shift.sides[0].name()),
+            false => format!("moved {way}"),
+        });
     }
-    if by != DVec3::ZERO {
-        work.changed(sides.iter().map(|&side| Group::Arm(side)), operator);
-    }
-    let moved = frame.to_body(by);
-    let cm = moved * 100.0;
-    let mut did = vec![format!("moved {}", directions(cm))];
-    did.extend(anchor_report);
+    let mut did = moved;
+    did.extend(notes);
     did.extend(kept_out);
     if let Some(input) = input {
         did.push(format!("the place is from {}", input.from));
     }
+    did.extend(rest);
     did.extend(describe_reach(&reach));
-    Ok((did, reach.residual, moved))
+    let one = shifts.first().filter(|_| !apart);
+    Ok(Done {
+        moved: one.map(|shift| frame.to_body(shift.by).to_array()),
+        ..(did, reach.residual).into()
+    })
 }
 
 /// Describes a displacement in centimetres for people, each part with its direction.
@@ -483,80 +579,6 @@ fn directions(cm: DVec3) -> String {
         part(cm.z, "forward", "back"),
     ];
     parts.join(", ")
-}
-
-/// The moment of a sign that determines its place: frames, and the point of the hand.
-struct Anchor {
-    point: HandPoint,
-    frames: std::ops::Range<usize>,
-    /// The contact that determines the place, if there is one.
-    touch: Option<Touch>,
-}
-
-/// Finds the moment that determines the place of a sign. For one hand it is the contact with the body that falls in the
-/// span of its own placement, or in the whole sign if no placement is annotated; else the stroke in that span, else the
-/// span, else the stroke.
-fn anchor(work: &Work, sides: &[Side], with: Option<HandPoint>) -> Anchor {
-    let whole = 0..work.frames;
-    let point = with.unwrap_or(HandPoint::Palm);
-    let [side] = *sides else {
-        let spans = sides.iter().filter_map(|&side| body::placed(work, side));
-        let frames = spans.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
-        return Anchor {
-            point,
-            frames: frames.unwrap_or(whole),
-            touch: None,
-        };
-    };
-    let placed = body::placed(work, side);
-    let within = placed.clone().unwrap_or(whole.clone());
-    if let Some(touch) = contact::touches(work).with_body(side, &within) {
-        return Anchor {
-            point: with.unwrap_or(touch.point),
-            frames: touch.frame..touch.frame + 1,
-            touch: Some(touch),
-        };
-    }
-    let about = About::Component(Component::Movement, Some("phase".to_owned()));
-    let strokes = work.notes.iter().filter(|note| {
-        let stroke = note.value.value() == Some("stroke");
-        stroke && note.about == about && say::is_of(work, note, &[side])
-    });
-    let strokes = strokes.filter_map(|note| {
-        let frames = work.rate.frames_in(note.span);
-        let frames = frames.start.max(within.start)..frames.end.min(within.end);
-        (!frames.is_empty()).then_some(frames)
-    });
-    let stroke = strokes.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
-    Anchor {
-        point,
-        frames: match placed {
-            Some(placed) => placed,
-            None => stroke.unwrap_or(whole),
-        },
-        touch: None,
-    }
-}
-
-impl Anchor {
-    /// Returns the position of the point at that moment; for two hands the middle between them.
-    fn at(&self, work: &Work, sides: &[Side]) -> Option<DVec3> {
-        if sides.len() > 1 {
-            return body::mean_point(work, sides, self.point);
-        }
-        let point = |model: &_| body::hand_point(work, model, sides[0], self.point);
-        body::mean(work, self.frames.clone(), point)
-    }
-
-    fn describe(&self, work: &Work) -> Option<String> {
-        let touch = self.touch?;
-        let at = work.rate.instant(touch.frame);
-        Some(format!(
-            "the place is that of the contact at {at}: the {} at the {}",
-            self.point.name(),
-            touch.place
-        ))
-    }
 }
 
 fn spatial(work: &Work, frame: &Frame, input: &PlaceInput, side: Side) -> Result<DVec3, Cause> {
@@ -579,17 +601,8 @@ pub(crate) fn frame(work: &Work, sides: &[Side]) -> Result<Frame, Cause> {
     Frame::of(work).ok_or(Cause::NoArm(sides[0]))
 }
 
-/// Moves wrists by the same displacement at every frame.
-pub(crate) fn shift(
-    work: &mut Work,
-    sides: &[Side],
-    by: DVec3,
-    solver: Solver,
-) -> Result<Reach, Cause> {
-    wrists(work, sides, solver, |_, _, at| at + by)
-}
-
-/// Moves wrists to the positions that `target` returns for a hand, a frame and the present position.
+/// Moves wrists to the positions that `target` returns for a hand, a frame and the present position; in rest before and
+/// after the stroke they stay.
 pub(crate) fn wrists(
     work: &mut Work,
     sides: &[Side],
@@ -600,10 +613,12 @@ pub(crate) fn wrists(
     let hand = |side: Side| work.anatomy.arm(side).map(|arm| arm.hand);
     let hands: Vec<Option<usize>> = sides.iter().map(|&side| hand(side)).collect();
     let columns = Columns::of(work, hands.iter().flatten().copied());
+    let stroke = SignStroke::of_work(work)?;
     for (&side, hand) in sides.iter().zip(hands) {
         let hand = hand.ok_or(Cause::NoArm(side))?;
         let at = columns.positions(hand).iter().enumerate();
-        let targets: Vec<DVec3> = at.map(|(frame, &at)| target(side, frame, at)).collect();
+        let target = |(frame, &at)| stroke.point_between(frame, at, target(side, frame, at));
+        let targets: Vec<DVec3> = at.map(target).collect();
         let reach = arm::move_wrist(work, side, &columns, &targets, None, solver)
             .ok_or(Cause::NoArm(side))?;
         check(side, &reach)?;

@@ -12,6 +12,7 @@ use crate::error::Cause;
 use crate::ops::place::{self, describe_reach};
 use crate::ops::{retime, say};
 use crate::recipe::{Leg, Solver};
+use crate::stroke::SignStroke;
 use crate::units::{Length, Seconds};
 use crate::work::{Columns, Group, Work};
 use std::fmt::{self, Display, Formatter};
@@ -59,6 +60,8 @@ const PACE: f64 = 1.2;
 /// The greatest mean speeds along a stated leg or curve, in metres per second: beyond the first it is reported, beyond
 /// the second no arm can do it.
 const FASTEST: (f64, f64) = (1.6, 10.0);
+/// The most times that a sign is stretched for its path.
+const MOST_STRETCHES: usize = 3;
 /// The warning about a time that a path does not have.
 const UNUSED: &str =
     "the time after \"via\" is not used: legs and curves have their own, such as left 5cm in 0.2s";
@@ -213,14 +216,22 @@ impl Operator for Travel {
         for part in &parts {
             part.check()?;
         }
-        let needed = needed(&parts, duration(work));
-        if needed <= duration(work) + 1e-9 {
+        let from = work.span().seconds();
+        let mut stretched = false;
+        // A slower hand counts as resting a little longer, so that the stroke is measured again.
+        for _ in 0..MOST_STRETCHES {
+            let stroke = SignStroke::of_work(work)?;
+            let needed = needed(&parts, stroke.stroke_seconds(work));
+            if needed <= stroke.stroke_seconds(work) + 1e-9 {
+                break;
+            }
+            let frames = (needed / work.rate.frame_time() - 1e-6).ceil() + 1.0;
+            retime::stretch(work, frames / stroke.frames.len() as f64)?;
+            stretched = true;
+        }
+        if !stretched {
             return Ok(None);
         }
-        let step = work.rate.frame_time();
-        let frames = (needed / step - 1e-6).ceil() + 1.0;
-        let from = work.span().seconds();
-        retime::stretch(work, frames / work.frames as f64)?;
         let to = work.span().seconds();
         Ok(Some(format!(
             "the sign became {to:.2} s long instead of {from:.2} s, so that the path has its time"
@@ -234,7 +245,7 @@ impl Operator for Travel {
         let warnings = parts.iter().filter_map(Part::warning).collect();
         let mut done: Done = travel(work, self, &course.arms, given.text)?.into();
         if parts.len() > 1 && parts.iter().any(|part| part.time.is_some()) {
-            let times = times(&parts, duration(work));
+            let times = times(&parts, SignStroke::of_work(work)?.stroke_seconds(work));
             let times: Vec<String> = times.iter().map(|time| format!("{time:.2} s")).collect();
             done.did.push(format!("the legs take {}", times.join(", ")));
         }
@@ -305,11 +316,6 @@ impl Travel {
     }
 }
 
-/// Returns the time from the first to the last frame, in seconds.
-fn duration(work: &Work) -> f64 {
-    work.frames.saturating_sub(1).max(1) as f64 * work.rate.frame_time()
-}
-
 /// Returns the time of each part; those without a stated time share what the stated ones leave of `total`, by length.
 fn times(parts: &[Part], total: f64) -> Vec<f64> {
     let stated: f64 = parts.iter().filter_map(|part| part.time).sum();
@@ -343,49 +349,48 @@ pub(crate) fn travel(
     let sides = settings.hand.sides(work.handedness);
     let frame = place::frame(work, sides)?;
     let curve = curve(&frame, &settings.through);
-    let displacements = match &curve {
-        Some(curve) => along(work, curve, settings.time, course),
+    let stroke = SignStroke::of_work(work)?;
+    let times = times(&settings.parts(&frame), stroke.stroke_seconds(work));
+    // Seconds since the stroke began: the path begins with it.
+    let now = |at: usize| at.saturating_sub(stroke.frames.start) as f64 * work.rate.frame_time();
+    let displacements: Vec<DVec3> = match &curve {
+        Some(curve) => (0..work.frames)
+            .map(|at| curve.at(course.share((now(at) / times[0].max(1e-9)).min(1.0))))
+            .collect(),
         None => {
-            let times = times(&settings.parts(&frame), duration(work));
-            displacements(work, &frame, &settings.path, &times, course)
+            let legs = legs(&frame, &settings.path, &times);
+            (0..work.frames)
+                .map(|at| displacement(&legs, now(at), course))
+                .collect()
         }
     };
     let before = work.clone();
     let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
         at + displacements[frame]
     })?;
-    let still = sides.iter().all(|&side| is_still(&before, side));
+    let still = sides.iter().all(|&side| is_still(&before, side, &stroke));
     moved(work, sides, operator);
     if still {
         drawn(
             work,
-            &frame,
+            (&frame, &stroke),
             sides,
             (&settings.path, curve.as_ref()),
             operator,
         );
     }
-    if let Some(curve) = curve {
-        let length = curve.length() * 100.0;
-        let mut did = vec![format!("a curve of {length:.0} cm ({})", curve.shape())];
-        did.extend(describe_reach(&reach));
-        return Ok((did, reach.residual));
-    }
-    let length: f64 = settings
-        .path
-        .iter()
-        .map(|leg| leg.distance.metres(frame.arm))
-        .sum();
-    let mut did = vec![format!(
-        "{} {}, {:.0} cm in all",
-        settings.path.len(),
-        if settings.path.len() == 1 {
-            "leg"
-        } else {
-            "legs"
-        },
-        length * 100.0
-    )];
+    let legs = settings.path.iter();
+    let length: f64 = legs.map(|leg| leg.distance.metres(frame.arm)).sum();
+    let path = match (&curve, settings.path.len()) {
+        (Some(curve), _) => {
+            let cm = curve.length() * 100.0;
+            format!("a curve of {cm:.0} cm ({})", curve.shape())
+        }
+        (None, 1) => format!("1 leg, {:.0} cm in all", length * 100.0),
+        (None, count) => format!("{count} legs, {:.0} cm in all", length * 100.0),
+    };
+    let mut did = vec![path];
+    did.extend(stroke.describe_rests(work));
     did.extend(describe_reach(&reach));
     Ok((did, reach.residual))
 }
@@ -400,47 +405,44 @@ fn curve(frame: &Frame, through: &[[Length; 3]]) -> Option<Spline> {
     (!points.is_empty()).then(|| Spline::new(&points))
 }
 
-/// Returns the displacement of the hands along a curve at each frame; they stay at its end if the movement lasts
-/// longer.
-fn along(work: &Work, curve: &Spline, time: Option<Seconds>, course: &Course) -> Vec<DVec3> {
-    let time = time.map_or(duration(work), |time| time.0).max(1e-9);
-    let now = |f: usize| f as f64 * work.rate.frame_time();
-    (0..work.frames)
-        .map(|f| curve.at(course.share((now(f) / time).min(1.0))))
-        .collect()
+/// A leg of a path in model space.
+struct PathLeg {
+    /// When it begins, in seconds since the path began.
+    start: f64,
+    /// How long it takes, in seconds.
+    time: f64,
+    /// Where it begins, and the way from there.
+    from: DVec3,
+    by: DVec3,
 }
 
-/// Returns the displacement of the hands along the path at each frame; the legs take these times.
-fn displacements(
-    work: &Work,
-    frame: &Frame,
-    path: &[Leg],
-    times: &[f64],
-    course: &Course,
-) -> Vec<DVec3> {
-    let mut at = (0.0, DVec3::ZERO);
+/// Returns the legs one after another; they take these times.
+fn legs(frame: &Frame, path: &[Leg], times: &[f64]) -> Vec<PathLeg> {
+    let (mut start, mut from) = (0.0, DVec3::ZERO);
     let mut legs = Vec::with_capacity(path.len());
     for (leg, &time) in path.iter().zip(times) {
-        legs.push((at.0, time, at.1, frame.leg(leg)));
-        at = (at.0 + time, at.1 + frame.leg(leg));
+        let by = frame.leg(leg);
+        legs.push(PathLeg {
+            start,
+            time,
+            from,
+            by,
+        });
+        (start, from) = (start + time, from + by);
     }
-    (0..work.frames)
-        .map(|f| {
-            let now = f as f64 * work.rate.frame_time();
-            let mut place = DVec3::ZERO;
-            for &(start, time, from, by) in &legs {
-                if now >= start {
-                    let w = if time > 0.0 {
-                        (now - start) / time
-                    } else {
-                        1.0
-                    };
-                    place = from + by * course.share(w);
-                }
-            }
-            place
-        })
-        .collect()
+    legs
+}
+
+/// Returns the displacement of the hands `now` seconds after the path began.
+fn displacement(legs: &[PathLeg], now: f64, course: &Course) -> DVec3 {
+    let begun = legs.iter().rev().find(|leg| now >= leg.start);
+    begun.map_or(DVec3::ZERO, |leg| {
+        let w = match leg.time > 0.0 {
+            true => (now - leg.start) / leg.time,
+            false => 1.0,
+        };
+        leg.from + leg.by * course.share(w)
+    })
 }
 
 /// The largest movement, in metres, of a wrist that counts as still.
@@ -451,21 +453,22 @@ pub(crate) fn wrist_path(work: &Work, side: Side) -> Result<Vec<DVec3>, Cause> {
     Ok(Columns::of(work, [hand]).positions(hand).to_vec())
 }
 
-/// Returns whether a wrist keeps its position.
-fn is_still(work: &Work, side: Side) -> bool {
+/// Returns whether a wrist keeps its position in the stroke.
+fn is_still(work: &Work, side: Side, stroke: &SignStroke) -> bool {
     let path = wrist_path(work, side).unwrap_or_default();
+    let path = path.get(stroke.frames.clone()).unwrap_or_default();
     path.iter().all(|at| at.distance(path[0]) < STILL)
 }
 
 /// Notes the new path of hands that were still before: straight if it has one leg, else the shape of the curve.
 fn drawn(
     work: &mut Work,
-    frame: &Frame,
+    (frame, stroke): (&Frame, &SignStroke),
     sides: &[Side],
     (path, curve): (&[Leg], Option<&Spline>),
     operator: &str,
 ) {
-    let all = 0..work.frames;
+    let all = stroke.frames.clone();
     for &side in sides {
         let shape = curve.map(Spline::shape);
         let one = match (path, curve) {

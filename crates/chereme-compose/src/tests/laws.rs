@@ -52,7 +52,8 @@ fn inverse_operators_restore_each_movement() {
                 drop(mirror::swap(work).expect("two arms"))
             }),
             ("place", |work, sign, by, solver| {
-                let reach = place::shift(work, &Side::BOTH, by * sign, solver).expect("two arms");
+                let reach = place::wrists(work, &Side::BOTH, solver, |_, _, at| at + by * sign);
+                let reach = reach.expect("two arms");
                 assert!(reach.residual < 1e-9 && reach.helped == 0);
             }),
         ];

@@ -12,6 +12,7 @@ mod paths;
 mod rest;
 mod robust;
 mod said;
+mod strokes;
 mod values;
 
 use chereme_motion::glam::DVec3;

@@ -1,0 +1,342 @@
+//! Operators change the stroke of a sign: its rests stay, its hands stay together, and each goes to its own side.
+
+use chereme_motion::ModelPose;
+use chereme_sign::Reading;
+
+use super::*;
+use crate::sources::{
+    LearnedCourse, LearnedProfile, LearnedReaches, Material, Meaning, Sources, Spatial, Value,
+};
+use crate::work::Work;
+
+/// Notated signs that begin and end at rest: with one hand, and with two that move alike.
+const ONE: &str = "hamnosys \"hamflathand hamextfingeru hampalml hamchin hammoveo\" with quiet";
+const TWO: &str =
+    "hamnosys \"hamsymmlr hamflathand hamextfingero hampalmd hamchest hammoved\" with quiet";
+
+/// Returns the postures of the joints of arms and fingers in a frame.
+fn arms(made: &Generated, frame: usize) -> Vec<chereme_motion::glam::DQuat> {
+    let joints = Side::BOTH.map(|side| {
+        let anatomy = &made.anatomy;
+        [anatomy.arm_joints(side), anatomy.fingers(side)].concat()
+    });
+    let turned = |&joint: &usize| made.clip.channel(joint).rotations[frame];
+    joints.concat().iter().map(turned).collect()
+}
+
+#[test]
+fn rests_before_and_after_a_sign_stay_as_they_are() {
+    for sign in [ONE, TWO] {
+        let plain = made(sign);
+        for step in [
+            "place both by left 20cm",
+            "place right at neutral-space",
+            "orient both by 60deg about up",
+            "amplify both 1.5",
+            "travel right down 10cm",
+            "travel both through 5cm,5cm,0cm then 10cm,0cm,0cm",
+            "from me to left",
+            "configure both U",
+        ] {
+            let made = made(&format!("{sign} | {step}"));
+            let (first, last) = (0, made.clip.frames() - 1);
+            let end = plain.clip.frames() - 1;
+            for (frame, rest) in [(first, 0), (last, end)] {
+                for (is, was) in arms(&made, frame).iter().zip(arms(&plain, rest)) {
+                    assert!(is.abs_diff_eq(was, 1e-9), "{sign} | {step}: {is} {was}");
+                }
+            }
+        }
+        let moved = made(&format!("{sign} | place both by left 20cm"));
+        let gone = |side: Side, frame: usize| {
+            let [was, is] = [&plain, &moved].map(|made| wrist(made, side)[frame]);
+            is - was
+        };
+        let middle = plain.clip.frames() / 2;
+        assert!(gone(Side::Right, middle).abs_diff_eq(DVec3::X * 0.2, 1e-3));
+        let steps = (1..plain.clip.frames()).map(|frame| {
+            let by = gone(Side::Right, frame) - gone(Side::Right, frame - 1);
+            by.length() * plain.clip.rate().per_second()
+        });
+        let fastest = steps.fold(0.0, f64::max);
+        assert!(fastest < 1.5, "the displacement sets in at {fastest} m/s");
+        assert!(moved.report.to_string().contains("stays as it is"));
+    }
+}
+
+#[test]
+fn larger_parallel_paths_keep_the_hands_together() {
+    let plain = made(TWO);
+    let apart = |made: &Generated| -> Vec<DVec3> {
+        let [right, left] = Side::BOTH.map(|side| wrist(made, side));
+        right.iter().zip(&left).map(|(a, b)| *a - *b).collect()
+    };
+    let tall = |made: &Generated| {
+        let path = wrist(made, Side::Right);
+        let path = &path[path.len() / 3..2 * path.len() / 3];
+        let [low, high] = [f64::min, f64::max].map(|pick| path.iter().map(|at| at.y).reduce(pick));
+        high.expect("frames") - low.expect("frames")
+    };
+    for factor in [0.5, 1.5] {
+        let scaled = made(&format!("{TWO} | amplify both {factor}"));
+        for (was, is) in apart(&plain).iter().zip(apart(&scaled)) {
+            assert!(was.abs_diff_eq(is, 5e-3), "{factor}: {was} {is}");
+        }
+        let grown = tall(&scaled) / tall(&plain);
+        assert!((grown - factor).abs() < 0.1, "{factor}: {grown}");
+    }
+}
+
+#[test]
+fn a_resting_hand_is_not_shifted_by_a_larger_path_of_the_other() {
+    let plain = made(ONE);
+    let scaled = made(&format!("{ONE} | amplify both 1.8"));
+    let [was, is] = [&plain, &scaled].map(|made| wrist(made, Side::Left));
+    for (was, is) in was.iter().zip(&is) {
+        assert!(was.distance(*is) < 5e-3, "{was} {is}");
+    }
+}
+
+/// Returns a shelf with places on both sides.
+fn sided() -> Shelf {
+    let mut shelf = Shelf::new();
+    for (id, landmark) in [("shoulder", "ipsi-shoulder"), ("palm", "contra-palm")] {
+        let value = Value {
+            id: id.to_owned(),
+            inventory: "placements".into(),
+            meaning: Some(Meaning::Place(Spatial {
+                landmark: landmark.to_owned(),
+                offset: [0.1, 0.0, 0.6],
+            })),
+        };
+        shelf.values.push((Component::Placement, value));
+    }
+    shelf
+}
+
+#[test]
+fn each_of_two_hands_goes_to_the_place_on_its_own_side() {
+    let shelf = sided();
+    let make = |text: &str| {
+        let recipe: crate::Recipe = text.parse().expect("a recipe");
+        evaluate(&resolve(&recipe, &shelf)?)
+    };
+    for gloss in ["ESCARGOT", "CHAT"] {
+        let made = make(&format!("{gloss} | place both at shoulder")).expect("made");
+        for side in Side::BOTH {
+            let mean = |name: &str| {
+                let frames = 0..made.clip.frames();
+                let count = frames.len() as f64;
+                let at = frames.map(|frame| {
+                    let model = ModelPose::of(made.clip.skeleton(), &made.clip.pose(frame));
+                    let name = format!("{}-{name}", side.name());
+                    let at = made.anatomy.landmark(made.clip.skeleton(), &model, &name);
+                    at.expect("a landmark")
+                });
+                at.sum::<DVec3>() / count
+            };
+            let off = mean("palm") - mean("shoulder");
+            assert!(off.x * side.sign() > 0.0, "{gloss} {}: {off}", side.name());
+            assert!(off.length() < 0.35, "{gloss} {}: {off}", side.name());
+            let placed = made.notes.iter().find(|note| {
+                note.hand == Some(side)
+                    && note.about == About::Component(Component::Placement, None)
+            });
+            let value = placed.map(|note| note.value.clone());
+            assert_eq!(value, Some(Reading::Value("shoulder".into())), "{gloss}");
+        }
+        let report = made.report.to_string();
+        assert!(report.contains("the left hand is moved"), "{report}");
+    }
+    let error = make("BOL | place both at palm").expect_err("the palms move");
+    let error = error.to_string();
+    assert!(
+        error.contains("it moves with them") && error.contains("one hand"),
+        "{error}"
+    );
+    make("BOL | place right at palm").expect("one hand touches the other");
+}
+
+#[test]
+fn signs_whose_hands_do_not_move_are_refused_with_what_they_lack() {
+    let mut shelf = Shelf::new();
+    let moving = shelf.materials["BOL"].clone();
+    let still = |gloss: &str| -> Material {
+        let clip = Clip::still(moving.clip.skeleton().clone(), moving.clip.rate(), 40);
+        Material {
+            gloss: gloss.to_owned(),
+            address: format!("token:{gloss}"),
+            clip,
+            ..moving.clone()
+        }
+    };
+    let mut face = still("FACE");
+    face.curves = vec![crate::outcome::Curve {
+        name: "jawOpen".into(),
+        values: vec![0.0; 40],
+    }];
+    shelf.materials.insert("STILL".into(), still("STILL"));
+    shelf.materials.insert("FACE".into(), face);
+    for (gloss, lacks) in [("STILL", "stand still"), ("FACE", "a face only")] {
+        for recipe in [
+            "X",
+            "X | reverse",
+            "X | place both by up 5cm",
+            "BOL then X",
+            "X then BOL",
+        ] {
+            let text = recipe.replace('X', gloss);
+            let recipe: crate::Recipe = text.parse().expect("a recipe");
+            let error = resolve(&recipe, &shelf).expect_err(&text).to_string();
+            assert!(error.contains("no movement of hands"), "{text}: {error}");
+            assert!(error.contains(lacks), "{text}: {error}");
+        }
+        // As donors of a face or a handshape they serve.
+        let recipe: crate::Recipe = format!("BOL | nonmanual from {gloss}")
+            .parse()
+            .expect("read");
+        resolve(&recipe, &shelf).expect("a head is taken");
+    }
+}
+
+#[test]
+fn palm_and_fingers_in_one_direction_are_refused_as_such() {
+    for directions in ["palm up fingers up", "fingers left palm right"] {
+        let error = format!("BOL | orient right {directions}").parse::<crate::Recipe>();
+        let error = error.expect_err(directions).to_string();
+        assert!(error.contains("across the fingers"), "{error}");
+    }
+}
+
+/// A shelf whose corpus shows reaches.
+struct Reaching(Shelf, f64);
+
+impl Sources for Reaching {
+    fn material(&self, address: &str) -> Result<Material, crate::sources::SourceError> {
+        self.0.material(address)
+    }
+
+    fn stage(&self, signer: Option<&str>) -> Result<Material, crate::sources::SourceError> {
+        self.0.stage(signer)
+    }
+
+    fn value(
+        &self,
+        component: Component,
+        text: &str,
+    ) -> Result<Value, crate::sources::SourceError> {
+        self.0.value(component, text)
+    }
+
+    fn values(&self, component: Component) -> Vec<Value> {
+        self.0.values(component)
+    }
+
+    fn holding(
+        &self,
+        component: Component,
+        value: &str,
+    ) -> Result<Vec<crate::sources::Example>, crate::sources::SourceError> {
+        self.0.holding(component, value)
+    }
+
+    fn best(
+        &self,
+        query: &str,
+        signer: Option<&str>,
+    ) -> Result<Vec<crate::sources::Example>, crate::sources::SourceError> {
+        self.0.best(query, signer)
+    }
+
+    fn letters(
+        &self,
+        alphabet: Option<&str>,
+        word: &str,
+    ) -> Result<Vec<crate::sources::Letter>, crate::sources::SourceError> {
+        self.0.letters(alphabet, word)
+    }
+
+    fn learned_profile(&self) -> Result<Option<LearnedProfile>, crate::sources::SourceError> {
+        let course = LearnedCourse {
+            shares: vec![0.0, 0.1, 0.5, 0.9, 1.0],
+            transitions: 9,
+            recordings: vec!["reach".into()],
+        };
+        Ok(Some(LearnedProfile {
+            reaches: Some(LearnedReaches {
+                course,
+                speed: self.1,
+            }),
+            ..LearnedProfile::default()
+        }))
+    }
+}
+
+#[test]
+fn pointing_is_as_fast_as_captured_reaches_and_never_faster_than_signers() {
+    let targets = ["30cm,140cm,50cm", "-40cm,120cm,150cm", "10cm,180cm,60cm"];
+    let fastest = |made: &Generated| {
+        let path = wrist(made, Side::Right);
+        let steps = path.windows(2).map(|two| two[0].distance(two[1]));
+        steps.fold(0.0, f64::max) * made.clip.rate().per_second()
+    };
+    for target in targets {
+        let recipe: crate::Recipe = format!("point right at {target} hold 0.3s on signer:1")
+            .parse()
+            .expect("a recipe");
+        let make = |sources: &dyn Sources| {
+            let resolved = resolve(&recipe, sources).expect("resolved");
+            evaluate(&resolved).expect("made")
+        };
+        let plain = make(&Shelf::new());
+        assert!(fastest(&plain) < 1.6, "{target}: {}", fastest(&plain));
+        for speed in [0.4, 9.0] {
+            let made = make(&Reaching(Shelf::new(), speed));
+            let report = made.report.to_string();
+            assert!(
+                report.contains("9 transitions of reaching arms in reach"),
+                "{report}"
+            );
+            assert!(fastest(&made) < 1.6, "{target}: {}", fastest(&made));
+            let path = wrist(&made, Side::Right);
+            let far = path[0].distance(path[path.len() / 2]);
+            let seconds = (made.clip.span().seconds() - 0.3) / 2.0;
+            let mean = far / seconds;
+            assert!(mean < speed * 1.02, "{target}: {mean} m/s");
+            assert!(speed > 1.0 || mean > speed * 0.97, "{target}: {mean} m/s");
+        }
+        let asked = format!("point right at {target} via minimum-jerk 0.2s on signer:1");
+        assert!(fastest(&made(&asked)) > 1.6, "a stated time is kept");
+    }
+}
+
+#[test]
+fn a_contact_is_repaired_with_the_nearest_part_of_the_hand() {
+    let mut repaired = 0;
+    for shape in ["S", "U", "V", "B"] {
+        let recipe = format!("ESCARGOT | place right at chin with index | configure right {shape}");
+        let made = made(&recipe);
+        let step = made.report.steps.last().expect("a step");
+        for did in step.did.iter().filter(|did| did.contains("contact kept")) {
+            let cm = did
+                .split("by up to ")
+                .nth(1)
+                .and_then(|it| it.split(' ').next());
+            let cm: f64 = cm.and_then(|cm| cm.parse().ok()).expect("a distance");
+            repaired += 1;
+            let warned = made.report.warnings.iter().any(|it| it.contains("touch"));
+            assert_eq!(
+                warned,
+                cm > 3.0,
+                "{recipe}: {did} {:?}",
+                made.report.warnings
+            );
+        }
+    }
+    assert!(repaired > 0);
+    let work = Work::of(&Shelf::new().materials["BOL"]);
+    assert_eq!(
+        crate::contact::long_repairs(&crate::contact::touches(&work), "x").len(),
+        0
+    );
+}
