@@ -1,8 +1,9 @@
-//! The ends of a clip: bind poses, T-poses and jumps that are not part of the movement, and rest.
+//! The usable and the active frames of a clip: without bind poses, T-poses and jumps, and without rest.
 //!
 //! Capture programs write calibration poses into first and last frames: every bone at rest, the arms stretched out to
 //! both sides, the body metres away or turned round. [`Ends`] finds these frames, so that measures and pictures can
-//! leave them out; [`activity`] finds the movement between two rests. Neither changes a clip.
+//! leave them out; [`activity`] finds the movement between two rests. Neither changes a clip. Trimming, pictures,
+//! transcription and all measures ask these two.
 
 use std::fmt;
 use std::ops::Range;
@@ -14,7 +15,7 @@ use crate::clip::Clip;
 use crate::hand::Side;
 use crate::pose::ModelPose;
 
-/// A range of frames at an end of a clip that is not part of its movement.
+/// A range of frames before or after the movement of a clip.
 #[derive(Debug, Clone, PartialEq)]
 pub struct OddFrames {
     /// The frames, counted from 0.
@@ -61,6 +62,22 @@ impl fmt::Display for OddFrames {
     }
 }
 
+impl OddFrames {
+    /// Returns the frames that remain of `all` frames without odd ones at both ends.
+    #[must_use]
+    pub fn remaining(all: usize, odd: &[Self]) -> Range<usize> {
+        let mut remaining = 0..all;
+        for Self { frames, .. } in odd {
+            if frames.start <= remaining.start {
+                remaining.start = remaining.start.max(frames.end);
+            } else {
+                remaining.end = remaining.end.min(frames.start);
+            }
+        }
+        remaining
+    }
+}
+
 /// The sound frames of a clip, and the odd ones before and after them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ends {
@@ -70,14 +87,19 @@ pub struct Ends {
     pub odd: Vec<OddFrames>,
 }
 
-/// Length of each end in which jumps are searched, in seconds; at most a quarter of the clip.
+/// Length of each end in which turns and jumps of hands are searched, in seconds; at most a quarter of the clip. Jumps of
+/// the body are searched everywhere.
 const WINDOW: f64 = 1.0;
+/// The share of a jump's least speed above which a step next to it belongs to it: programs spread a jump over several
+/// frames.
+const SNAP: f64 = 0.5;
+/// A body that returns within this time in seconds, missing its place by at most this share of the jump, was away for a
+/// moment: that is a lapse, and its frames stay.
+const AWAY: (f64, f64) = (0.15, 0.35);
 /// The least distance of a body's jump in metres, and its least speed in metres per second.
 const JUMP: (f64, f64) = (0.5, 20.0);
-/// The least turn of a body's jump in radians, and its least speed in radians per second.
-const TURN: (f64, f64) = (0.8, 20.0);
-/// The least jump of a wrist relative to the body in metres, and its least speed in metres per second.
-const LEAP: (f64, f64) = (0.2, 12.0);
+/// The same for the body, for its turn in radians, and for a wrist relative to the body.
+const JUMPS: [(f64, f64); 3] = [JUMP, (0.8, 20.0), (0.2, 12.0)];
 /// The least jump of a wrist after a bind pose, in metres.
 const UNBIND: f64 = 0.05;
 /// Rotations within this angle of the rest pose, in radians, count as the rest pose.
@@ -91,12 +113,14 @@ const REST: (f64, f64) = (0.7, 0.15);
 /// position in metres, and the time in seconds for which both hands must wait.
 const WAIT: (f64, f64, f64) = (0.45, 0.03, 0.3);
 
+/// The least height of a signing wrist above the hips, as a share of the trunk.
+const UP: f64 = 0.2;
+
 impl Ends {
-    /// Examines both ends of `clip`; `anatomy` belongs to its skeleton.
+    /// Examines `clip`; `anatomy` belongs to its skeleton. Where the body jumps, the longest piece remains.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
         let all = clip.frames();
-        let window = (all / 4).min((WINDOW * clip.rate().per_second()).round() as usize);
         let mut ends = Self {
             sound: 0..all,
             odd: Vec::new(),
@@ -105,9 +129,15 @@ impl Ends {
             return ends;
         }
         let looks = Looks { clip, anatomy };
-        ends.head(&looks, window.max(1));
-        let tail = ends.tail(&looks, window.max(1));
-        ends.odd.extend(tail);
+        ends.keep_longest_piece(&looks);
+        if ends.sound.len() < 4 {
+            return ends;
+        }
+        let window = (WINDOW * clip.rate().per_second()).round() as usize;
+        let window = (ends.sound.len() / 4).min(window).max(1);
+        ends.head(&looks, window);
+        ends.tail(&looks, window);
+        ends.odd.sort_by_key(|odd| odd.frames.start);
         ends
     }
 
@@ -117,81 +147,97 @@ impl Ends {
         self.odd.is_empty()
     }
 
-    fn head(&mut self, looks: &Looks<'_>, window: usize) {
-        let bound = looks.bound(0..self.sound.end);
-        let mut found = None;
-        let mut before = looks.at(0);
-        for frame in 0..window {
-            let after = looks.at(frame + 1);
-            if let Some(what) = looks.break_between(&before, &after) {
-                found = Some((frame + 1, what));
-            }
-            before = after;
+    /// Keeps the longest piece between jumps of the body.
+    fn keep_longest_piece(&mut self, looks: &Looks<'_>) {
+        let jumps = looks.body_jumps();
+        let starts = std::iter::once(0).chain(jumps.iter().map(|jump| jump.steps.end));
+        let ends = jumps.iter().map(|jump| jump.steps.start + 1);
+        let pieces = starts.zip(ends.chain([self.sound.end]));
+        let longest = pieces.enumerate().max_by_key(|(nth, (start, end))| {
+            // Of equal pieces the first.
+            (end.saturating_sub(*start), usize::MAX - nth)
+        });
+        let Some((nth, (start, end))) = longest else {
+            return;
+        };
+        if let Some(before) = nth.checked_sub(1) {
+            let jump = &jumps[before];
+            self.leave_out(0..start, jump.what_after(looks.bound(0..start)));
         }
-        if let Some((end, what)) = found {
-            self.odd.push(OddFrames {
-                frames: 0..end,
-                what: if bound >= end { Oddity::Bind } else { what },
-            });
-            self.sound.start = end;
-        } else if bound > 0 && bound <= window && looks.unbinds(bound) {
-            self.odd.push(OddFrames {
-                frames: 0..bound,
-                what: Oddity::Bind,
-            });
-            self.sound.start = bound;
-        }
-        let start = self.sound.start;
-        let tee = (start..self.sound.end)
-            .take_while(|&frame| looks.at(frame).tee)
-            .count();
-        if tee > 0 && tee < self.sound.len() / 2 {
-            self.odd.push(OddFrames {
-                frames: start..start + tee,
-                what: Oddity::Tee,
-            });
-            self.sound.start += tee;
+        if let Some(after) = jumps.get(nth) {
+            self.leave_out(end..self.sound.end, after.what);
         }
     }
 
-    fn tail(&mut self, looks: &Looks<'_>, window: usize) -> Vec<OddFrames> {
-        let mut odd = Vec::new();
+    /// Leaves frames at one end of the remaining ones out.
+    fn leave_out(&mut self, frames: Range<usize>, what: Oddity) {
+        if frames.is_empty() {
+            return;
+        }
+        if frames.start <= self.sound.start {
+            self.sound.start = frames.end;
+        } else {
+            self.sound.end = frames.start;
+        }
+        self.odd.push(OddFrames { frames, what });
+    }
+
+    fn head(&mut self, looks: &Looks<'_>, window: usize) {
+        let first = self.sound.start;
+        let bound = first + looks.bound(self.sound.clone());
+        let jump = looks.jumps(first..first + window).pop();
+        if let Some(jump) = jump {
+            self.leave_out(first..jump.steps.end, jump.what_after(bound));
+        } else if bound > first && bound - first <= window && looks.unbinds(bound) {
+            self.leave_out(first..bound, Oddity::Bind);
+        }
+        let sound = self.sound.clone();
+        let tee = sound
+            .clone()
+            .take_while(|&frame| looks.at(frame).tee)
+            .count();
+        if tee > 0 && tee < sound.len() / 2 {
+            self.leave_out(sound.start..sound.start + tee, Oddity::Tee);
+        }
+        let start = self.sound.start;
+        let snap = (start..self.sound.end - 1).take_while(|&frame| looks.is_snap(frame));
+        let snap = start + snap.take(window).count();
+        if let Some(before) = self.odd.iter_mut().find(|odd| odd.frames.end == start) {
+            before.frames.end = snap;
+            self.sound.start = snap;
+        }
+    }
+
+    fn tail(&mut self, looks: &Looks<'_>, window: usize) {
         let last = self.sound.end;
-        let first = last.saturating_sub(window + 1).max(self.sound.start);
-        let mut before = looks.at(first);
-        for frame in first + 1..last {
-            let after = looks.at(frame);
-            if let Some(what) = looks.break_between(&before, &after) {
-                odd.push(OddFrames {
-                    frames: frame..last,
-                    what,
-                });
-                self.sound.end = frame;
-                break;
-            }
-            before = after;
+        let first = (last - 1).saturating_sub(window).max(self.sound.start);
+        if let Some(Jump { steps, what }) = looks.jumps(first..last - 1).into_iter().next() {
+            self.leave_out(steps.start + 1..last, what);
+        }
+        let sound = self.sound.clone();
+        let tee = sound.clone().rev().take_while(|&frame| looks.at(frame).tee);
+        let tee = tee.count();
+        if tee > 0 && tee < sound.len() / 2 {
+            self.leave_out(sound.end - tee..sound.end, Oddity::Tee);
         }
         let end = self.sound.end;
-        let tee = self.sound.clone().rev();
-        let tee = tee.take_while(|&frame| looks.at(frame).tee).count();
-        if tee > 0 && tee < self.sound.len() / 2 {
-            let frames = end - tee..end;
-            odd.insert(
-                0,
-                OddFrames {
-                    frames,
-                    what: Oddity::Tee,
-                },
-            );
-            self.sound.end -= tee;
+        let steps = (self.sound.start..end - 1).rev();
+        let snap = end
+            - steps
+                .take_while(|&frame| looks.is_snap(frame))
+                .take(window)
+                .count();
+        if let Some(next) = self.odd.iter_mut().find(|odd| odd.frames.start == end) {
+            next.frames.start = snap;
+            self.sound.end = snap;
         }
-        odd
     }
 }
 
 /// Returns the frames of a clip between the rest before its movement and the rest after it. A hand is at rest while it
 /// hangs or lies low and stays still, or while both hands wait in front of the belly at the beginning or end of the
-/// clip. Odd frames at the ends are left out, and so is the movement of the arms from a T-pose to the first rest.
+/// clip. Odd frames at the ends are left out, and so are the movement of the arms from a T-pose to the first rest, and
+/// hands that stir between two rests without coming up.
 /// Returns `None` if no hand is ever active, or if the skeleton has no arm.
 #[must_use]
 pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
@@ -237,6 +283,19 @@ pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     }
     let first = (start..end).find(|&frame| !idle(frame))?;
     let last = (first..end).rev().find(|&frame| !idle(frame))?;
+    // A hand that stirs in its rest, before or after the sign, does not sign.
+    let is_up = |&frame: &usize| poses[frame].is_hand_up(anatomy);
+    let (first, last) = match ((first..=last).find(is_up), (first..=last).rev().find(is_up)) {
+        (Some(rises), Some(sinks)) => {
+            let before = (first..rises).rev().find(|&frame| idle(frame));
+            let after = (sinks..=last).find(|&frame| idle(frame));
+            (
+                before.map_or(first, |rest| rest + 1),
+                after.map_or(last, |rest| rest - 1),
+            )
+        }
+        _ => (first, last),
+    };
     let wait = (clip.rate().per_second() * WAIT.2).ceil() as usize;
     let before = waits(&poses, first..last + 1);
     let first = if before >= wait {
@@ -285,9 +344,39 @@ struct Look {
     tee: bool,
 }
 
+impl Look {
+    /// Returns whether a hand is above the lower fifth of the trunk.
+    fn is_hand_up(&self, anatomy: &Anatomy) -> bool {
+        let Some(size) = anatomy
+            .measures()
+            .filter(|_| anatomy.joint(Part::Hips).is_some())
+        else {
+            return false;
+        };
+        let mut wrists = self.wrists.iter().flatten();
+        wrists.any(|wrist| wrist.y > UP * size.trunk)
+    }
+}
+
 struct Looks<'a> {
     clip: &'a Clip,
     anatomy: &'a Anatomy,
+}
+
+/// A jump over successive steps: from the frame `steps.start` to the frame `steps.end`.
+struct Jump {
+    steps: Range<usize>,
+    what: Oddity,
+}
+
+impl Jump {
+    /// Returns what the frames before the jump are, if those before the frame `bound` have the rest pose.
+    fn what_after(&self, bound: usize) -> Oddity {
+        match bound > self.steps.start {
+            true => Oddity::Bind,
+            false => self.what,
+        }
+    }
 }
 
 impl Looks<'_> {
@@ -334,24 +423,83 @@ impl Looks<'_> {
         })
     }
 
-    /// Returns the jump between two successive frames, if there is one.
-    fn break_between(&self, a: &Look, b: &Look) -> Option<Oddity> {
-        let rate = self.clip.rate().per_second();
-        let beyond = |found: f64, (least, speed): (f64, f64)| found > least && found * rate > speed;
-        let jump = a.body.distance(b.body);
-        if beyond(jump, JUMP) {
-            return Some(Oddity::Jump(jump));
-        }
-        if let (Some(was), Some(is)) = (a.left, b.left) {
-            let turn = was.angle_between(is);
-            if beyond(turn, TURN) {
-                return Some(Oddity::Turn(turn));
-            }
-        }
+    /// Returns the distance of the body, the turn of the trunk and the greater distance of the wrists between two frames.
+    fn moved(a: &Look, b: &Look) -> [f64; 3] {
+        let turn = a.left.zip(b.left).map_or(0.0, |(a, b)| a.angle_between(b));
         let leap = (0..2)
             .filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)))
             .fold(0.0, f64::max);
-        beyond(leap, LEAP).then_some(Oddity::Leap(leap))
+        [a.body.distance(b.body), turn, leap]
+    }
+
+    /// Returns the greatest speed of a step relative to the least one of a jump.
+    fn speed(&self, moved: [f64; 3]) -> [f64; 3] {
+        let rate = self.clip.rate().per_second();
+        std::array::from_fn(|kind| moved[kind] * rate / JUMPS[kind].1)
+    }
+
+    /// Returns whether the step from a frame to the next is fast enough to belong to a jump.
+    fn is_snap(&self, frame: usize) -> bool {
+        let moved = Self::moved(&self.at(frame), &self.at(frame + 1));
+        self.speed(moved).iter().any(|speed| *speed > SNAP)
+    }
+
+    /// Returns the jumps in steps, each from its frame to the next, in order.
+    fn jumps(&self, steps: Range<usize>) -> Vec<Jump> {
+        let looks: Vec<Look> = (steps.start..=steps.end)
+            .map(|frame| self.at(frame))
+            .collect();
+        let moved = looks.windows(2).map(|pair| Self::moved(&pair[0], &pair[1]));
+        let speeds: Vec<[f64; 3]> = moved.map(|moved| self.speed(moved)).collect();
+        let is_fast = |step: &[f64; 3]| step.iter().any(|speed| *speed > SNAP);
+        let (mut jumps, mut n) = (Vec::new(), 0);
+        while n < speeds.len() {
+            let run = n..n + speeds[n..].iter().take_while(|step| is_fast(step)).count();
+            n = run.end + 1;
+            let mut far = [0.0_f64; 3];
+            for look in &looks[run.start..=run.end] {
+                let moved = Self::moved(&looks[run.start], look);
+                far = std::array::from_fn(|kind| far[kind].max(moved[kind]));
+            }
+            let jumps_by = |kind: &usize| {
+                far[*kind] > JUMPS[*kind].0
+                    && speeds[run.clone()].iter().any(|step| step[*kind] > 1.0)
+            };
+            let Some(kind) = (0..3).find(jumps_by) else {
+                continue;
+            };
+            let what = [Oddity::Jump, Oddity::Turn, Oddity::Leap][kind](far[kind]);
+            let steps = steps.start + run.start..steps.start + run.end;
+            jumps.push(Jump { steps, what });
+        }
+        jumps
+    }
+
+    /// Returns the jumps of the body in the whole clip, without those from which it returns.
+    fn body_jumps(&self) -> Vec<Jump> {
+        let rate = self.clip.rate().per_second();
+        let path = self.clip.path(self.anatomy.joint(Part::Hips).unwrap_or(0));
+        let speed = |n: usize| path[n].distance(path[n + 1]) * rate;
+        let longest = ((AWAY.0 * rate).ceil() as usize).max(1);
+        let (mut jumps, mut n, last) = (Vec::new(), 0, path.len() - 1);
+        while n < last {
+            let run = (n..last).take_while(|&n| speed(n) > SNAP * JUMP.1);
+            let run = n..n + run.count();
+            n = run.end + 1;
+            let far = path[run.start].distance(path[run.end]);
+            if far <= JUMP.0 || !run.clone().any(|n| speed(n) > JUMP.1) {
+                continue;
+            }
+            let mut later = run.end + 1..(run.end + 1 + longest).min(path.len());
+            match later.find(|&at| path[at].distance(path[run.start]) < AWAY.1 * far) {
+                Some(back) => n = back,
+                None => jumps.push(Jump {
+                    steps: run,
+                    what: Oddity::Jump(far),
+                }),
+            }
+        }
+        jumps
     }
 
     /// Returns how many of the first frames have all joints except the root at rest.
@@ -419,7 +567,7 @@ mod tests {
     #[test]
     fn odd_first_and_last_frames_are_found_with_their_numbers() {
         type Change = fn(usize, usize, &mut Vec<DQuat>, &mut Vec<DVec3>);
-        let cases: [(&str, Change, Range<usize>); 6] = [
+        let cases: [(&str, Change, Range<usize>); 9] = [
             ("", |_, _, _, _| {}, 0..100),
             (
                 "frame 0: the skeleton's own posture (bind pose)",
@@ -451,6 +599,36 @@ mod tests {
                         for place in &mut places[count - 3..] {
                             place.z -= 3.0;
                         }
+                    }
+                },
+                0..97,
+            ),
+            (
+                "frames 0 to 37: the body jumps 5.0 m",
+                |joint, _, _, places| {
+                    if joint == 0 {
+                        places[..38].iter_mut().for_each(|place| place.x += 5.0);
+                        places[36].x -= 1.6;
+                        places[37].x -= 3.2;
+                    }
+                },
+                38..100,
+            ),
+            (
+                "",
+                |joint, _, _, places| {
+                    if joint == 0 {
+                        places[40..42].iter_mut().for_each(|place| place.x += 5.0);
+                    }
+                },
+                0..100,
+            ),
+            (
+                "frames 97 to 99: the body turns by 115° at once",
+                |joint, _, turned, _| {
+                    if joint == 0 {
+                        turned[97] = DQuat::from_rotation_y(0.6);
+                        turned[98..].fill(DQuat::from_rotation_y(2.0));
                     }
                 },
                 0..97,
@@ -528,6 +706,23 @@ mod tests {
         );
         let active = activity(&clip, &anatomy).expect("a raised hand");
         assert!(active.start > 25 && active.start <= 31, "{active:?}");
+    }
+
+    #[test]
+    fn hands_that_stir_at_rest_are_not_active() {
+        let (clip, anatomy) = clip(|joint, count, turned, _| {
+            // The right arm swings by some centimetres, after the sign.
+            if turned[50].angle_between(turned[0]) > 0.5 && joint > 0 {
+                for (frame, turned) in turned[85..count - 5].iter_mut().enumerate() {
+                    *turned *= DQuat::from_rotation_x(0.3 * (frame as f64 * 0.4).sin());
+                }
+            }
+        });
+        let active = activity(&clip, &anatomy).expect("a raised hand");
+        assert!(
+            (27..=31).contains(&active.start) && (69..=73).contains(&active.end),
+            "{active:?}"
+        );
     }
 
     #[test]
