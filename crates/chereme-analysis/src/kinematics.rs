@@ -90,15 +90,19 @@ struct Chain {
 
 fn chains(clip: &Clip, anatomy: &Anatomy, side: Side, wrist: usize) -> Vec<Chain> {
     let skeleton = clip.skeleton();
-    let fingers = anatomy.fingers(side);
-    let ends = fingers
-        .iter()
-        .filter(|&&joint| skeleton.children(joint).is_empty());
+    let fingers = anatomy.possible_fingers(side);
+    let goes_on = |joint: usize| {
+        skeleton
+            .children(joint)
+            .iter()
+            .any(|it| fingers.contains(it))
+    };
+    let ends = fingers.iter().filter(|&&joint| !goes_on(joint));
     ends.filter_map(|&end| {
         let above = skeleton.ancestors(end);
         let mut joints: Vec<usize> = above.take_while(|&joint| joint != wrist).collect();
         joints.reverse();
-        let tip = anatomy.tip(skeleton, end).unwrap_or_default();
+        let tip = anatomy.digit_end(skeleton, end).unwrap_or_default();
         let bones = joints
             .iter()
             .map(|&joint| skeleton.joint(joint).offset.length());

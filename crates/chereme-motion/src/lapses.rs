@@ -10,7 +10,7 @@ use std::ops::Range;
 use glam::{DQuat, DVec3};
 
 use crate::anatomy::{Anatomy, Part};
-use crate::clip::Clip;
+use crate::clip::{Channel, Clip};
 use crate::hand::Side;
 use crate::pose::ModelPose;
 
@@ -86,6 +86,8 @@ pub struct Lapses {
     pub repeated: usize,
     /// The number of frames outside of longer runs of such frames.
     pub moving: usize,
+    /// Whether any joint turns.
+    pub bends: bool,
 }
 
 /// The longest run of equal frames that a conversion from another frame rate writes.
@@ -130,7 +132,10 @@ impl Lapses {
     /// Examines a clip; `anatomy` belongs to its skeleton.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
-        let mut lapses = Self::default();
+        let mut lapses = Self {
+            bends: has_bending_joints(clip, anatomy),
+            ..Self::default()
+        };
         if clip.frames() < 2 {
             lapses.moving = clip.frames();
             return lapses;
@@ -142,7 +147,7 @@ impl Lapses {
         for frame in 0..clip.frames() {
             model.set(clip.skeleton(), &clip.pose(frame));
             for path in &mut paths {
-                path.push(clip, &model, frame);
+                path.push((clip, anatomy), &model, frame);
             }
         }
         for path in &paths {
@@ -164,6 +169,30 @@ impl Lapses {
         }
         lapses
     }
+}
+
+/// Returns whether any joint turns or moves, besides markers and the joints that carry the whole body.
+#[must_use]
+pub fn has_bending_joints(clip: &Clip, anatomy: &Anatomy) -> bool {
+    let skeleton = clip.skeleton();
+    let hips = anatomy.joint(Part::Hips).unwrap_or(0);
+    let carriers: Vec<usize> = skeleton.ancestors(hips).collect();
+    let is_own = |joint: &usize| !carriers.contains(joint) && !anatomy.markers().contains(joint);
+    (0..skeleton.len()).filter(is_own).any(|joint| {
+        let Channel {
+            rotations,
+            translations,
+        } = clip.channel(joint);
+        let turns = rotations
+            .iter()
+            .any(|turn| turn.angle_between(rotations[0]) > SAME);
+        let places = translations.iter().flatten();
+        turns
+            || places
+                .clone()
+                .zip(places.skip(1))
+                .any(|(a, b)| a.distance(*b) > SAME)
+    })
 }
 
 /// The movement of a limb.
@@ -203,7 +232,7 @@ impl Path {
                 (vec![arm.upper, arm.forearm], Some(base), measured)
             }
             Limb::Fingers(side) => {
-                let joints = anatomy.fingers(side);
+                let joints = anatomy.possible_fingers(side);
                 let is_last = |joint: &usize| {
                     !joints
                         .iter()
@@ -229,15 +258,15 @@ impl Path {
         })
     }
 
-    fn push(&mut self, clip: &Clip, model: &ModelPose, frame: usize) {
+    fn push(&mut self, (clip, anatomy): (&Clip, &Anatomy), model: &ModelPose, frame: usize) {
         let skeleton = clip.skeleton();
         let (origin, turned) = match self.base {
             Some(base) => (model.position(base), model.rotation(base).inverse()),
             None => (DVec3::ZERO, DQuat::IDENTITY),
         };
         for &(joint, is_tip) in &self.measured {
-            let at = model.tip(skeleton, joint).filter(|_| is_tip);
-            let at = at.unwrap_or_else(|| model.position(joint));
+            let tip = anatomy.digit_end(skeleton, joint).filter(|_| is_tip);
+            let at = model.point(joint, tip.unwrap_or_default());
             self.places.push(turned * (at - origin));
         }
         let turns = |joint: usize| &clip.channel(joint).rotations;

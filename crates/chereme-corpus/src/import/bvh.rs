@@ -657,11 +657,17 @@ fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
         (OddTip::Short, (_, names)) => Some(format!(
             "the ends of these finger bones have no length, so that their fingertips are guessed: {names}"
         )),
+        (OddTip::Long, (_, names)) => Some(format!(
+            "the ends of these finger bones are over twice as long as the rest of the hand suggests, and are drawn and measured at the usual length: {names}"
+        )),
     };
     let messages = [OddTip::Turned, OddTip::Short].map(message);
-    messages
-        .into_iter()
-        .flatten()
-        .map(ReportFinding::note)
-        .collect()
+    let notes = messages.into_iter().flatten().map(ReportFinding::note);
+    let long = message(OddTip::Long).map(|message| {
+        ReportFinding::warning(
+            message,
+            "the stored numbers stay those of the file; if the fingers are right and the rest is not, say the unit with --unit",
+        )
+    });
+    notes.chain(long).collect()
 }

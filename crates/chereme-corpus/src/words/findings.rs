@@ -95,6 +95,22 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "les extrémités de ces os des doigts n’ont pas de longueur ; les bouts des doigts sont donc supposés : {names}",
     ),
     (
+        "the ends of these finger bones are over twice as long as the rest of the hand suggests, and are drawn and measured at the usual length: {names}",
+        "les extrémités de ces os des doigts sont plus de deux fois plus longues que le reste de la main ne le laisse attendre ; elles sont dessinées et mesurées à la longueur habituelle : {names}",
+    ),
+    (
+        "the stored numbers stay those of the file; if the fingers are right and the rest is not, say the unit with --unit",
+        "les nombres enregistrés restent ceux du fichier ; si les doigts sont justes et le reste ne l’est pas, donnez l’unité par --unit",
+    ),
+    (
+        "no joint of the body turns in this take: its arms and hands stand still",
+        "aucune articulation du corps ne tourne dans cette prise : les bras et les mains restent immobiles",
+    ),
+    (
+        "export the take again with the movement of all joints, and import that file; nothing is proposed for this one",
+        "exportez de nouveau la prise avec le mouvement de toutes les articulations, et importez ce fichier ; rien n’est proposé pour celui-ci",
+    ),
+    (
         "not found in the skeleton: {parts} and {n} more",
         "introuvables dans le squelette : {parts} et {n} autres",
     ),

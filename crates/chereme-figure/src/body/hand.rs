@@ -240,8 +240,10 @@ impl HandFit<'_> {
                 };
                 let end = match (next, found) {
                     (Some(next), _) => Some(next),
-                    (None, Some(joint)) => tip((self.skeleton, self.anatomy), joint)
-                        .map(|tip| place(bind, joint) + rotation(bind, joint) * tip),
+                    (None, Some(joint)) => self
+                        .anatomy
+                        .digit_end(self.skeleton, joint)
+                        .map(|end| place(bind, joint) + rotation(bind, joint) * end.as_vec3()),
                     (None, None) => None,
                 };
                 let end = end.filter(|end| {
@@ -346,15 +348,6 @@ fn above(index: usize) -> usize {
     } else {
         index - 1
     }
-}
-
-/// Returns the end of the bone of a last joint, in the joint's space, if the skeleton has it.
-fn tip((skeleton, anatomy): (&Skeleton, &Anatomy), joint: usize) -> Option<Vec3> {
-    let own = anatomy.tip(skeleton, joint).map(|tip| tip.as_vec3());
-    own.or_else(|| {
-        let child = *skeleton.children(joint).first()?;
-        Some(skeleton.joint(child).offset.as_vec3())
-    })
 }
 
 /// The fit of the palm: scaled to the hand, and moved so that knuckles and thumb match those of the skeleton.

@@ -214,16 +214,66 @@ fn bone_end(
     digit_tip(anatomy, skeleton, joint).map(|tip| place + turned * tip)
 }
 
-/// Returns the tip of a digit's last joint in the joint's space.
+/// Returns the end of a digit's last bone as its file has it, in the joint's space: the joint's tip, or its only child.
+fn written_end(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+    let tip = skeleton.joint(joint).tip;
+    tip.or_else(|| match *skeleton.children(joint) {
+        [child] if anatomy.part_of(child).is_none() => Some(skeleton.joint(child).offset),
+        _ => None,
+    })
+}
+
+/// Returns the usual length of a digit's last bone, as the bone before it and the palm suggest; the longer of the two.
+/// `None` if the joint is not below another one of the digit.
+fn usual_end(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) -> Option<f64> {
+    let digit = anatomy.part_of(joint).filter(is_digit)?;
+    let above = skeleton.parent(joint)?;
+    anatomy.part_of(above).filter(is_digit)?;
+    let hand = digit
+        .side()
+        .and_then(|side| anatomy.joint(Part::Hand(side)));
+    let palm = digit.side().zip(hand).and_then(|(side, hand)| {
+        let knuckles = Finger::ALL.map(|finger| anatomy.joint(Part::Finger(side, finger, 1)));
+        let lengths = knuckles.into_iter().flatten();
+        let lengths = lengths.map(|knuckle| in_hand(skeleton, hand, knuckle).0.length());
+        lengths.reduce(f64::min)
+    });
+    let before = skeleton.joint(joint).offset.length();
+    Some((END[0] * before).max(END[1] * palm.unwrap_or_default()))
+}
+
+fn is_digit(part: &Part) -> bool {
+    matches!(part, Part::Thumb(..) | Part::Finger(..))
+}
+
+/// The last bone of a digit as a share of the bone before it, and of the palm from wrist to knuckle (facts: the house's
+/// hand; Buryanov and Kotiuk 2010 have 0.8 and 0.25).
+const END: [f64; 2] = [0.8, 0.25];
+/// The length of a last bone from which it is impossible, as a multiple of the usual one.
+const LONG: f64 = 2.0;
+
+/// Returns the end of a digit's last bone in the joint's space.
 ///
 /// Some programs write ends along an axis of the joint instead of along the finger. A tip is turned to the direction of
-/// the bone before it if it is off by more than end joints bend at rest: [`STIFF`] more than the bone before is bent.
+/// the bone before it if it is off by more than end joints bend at rest: [`STIFF`] more than the bone before is bent. An
+/// end that is impossibly far away is drawn in to the usual length.
 pub(super) fn digit_tip(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+    let end = straight_end(anatomy, skeleton, joint)?;
+    let usual = usual_end(anatomy, skeleton, joint).filter(|usual| end.length() > LONG * usual);
+    Some(match usual.filter(|usual| *usual > 0.0) {
+        Some(usual) => end.normalize_or_zero() * usual,
+        None => end,
+    })
+}
+
+/// Returns the end of a digit's last bone in the direction of the digit.
+fn straight_end(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
     let own = skeleton.joint(joint);
-    let tip = own.tip?;
-    let is_digit = |part| matches!(part, Part::Thumb(..) | Part::Finger(..));
+    let Some(tip) = own.tip else {
+        return written_end(anatomy, skeleton, joint);
+    };
     let above = skeleton.parent(joint);
-    let above = above.filter(|&above| anatomy.part_of(above).is_some_and(is_digit));
+    let above = above.filter(|&above| anatomy.part_of(above).as_ref().is_some_and(is_digit));
     let Some(above) = above.map(|above| skeleton.joint(above)) else {
         return Some(tip);
     };
@@ -241,45 +291,56 @@ pub(super) fn digit_tip(anatomy: &Anatomy, skeleton: &Skeleton, joint: usize) ->
     Some(own.rest.inverse() * second * tip.length())
 }
 
-/// A fault of the tip of a thumb or finger in its file, which is mended for measures and pictures.
+/// A fault of the end of a thumb or finger in its file, which is mended for measures and pictures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum OddTip {
     /// It points elsewhere than the finger, and is turned to the direction of the bone before.
     Turned,
     /// It has no length.
     Short,
+    /// It is over twice as long as the rest of the hand suggests, and is drawn in to the usual length.
+    Long,
 }
 
 /// The least length of a tip as a share of the bone before it.
 const SHORT: f64 = 0.05;
 
 impl Anatomy {
-    /// Returns the tip of a joint in the joint's space. That of a thumb or finger which points elsewhere than its bones is
-    /// turned; `None` if the joint has none, or one of a finger that is as good as none.
+    /// Returns the tip of a joint in the joint's space, as [`digit_end`](Self::digit_end) for the last joint of a thumb
+    /// or finger; `None` if the joint has none.
     #[must_use]
     pub fn tip(&self, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
+        skeleton.joint(joint).tip?;
+        self.digit_end(skeleton, joint)
+    }
+
+    /// Returns the end of the last bone of a thumb or finger in its joint's space: its tip, or a joint that only ends it.
+    /// One that points elsewhere than its bones is turned, and one that is impossibly far away is drawn in; `None` if
+    /// there is none, or one that is as good as none.
+    #[must_use]
+    pub fn digit_end(&self, skeleton: &Skeleton, joint: usize) -> Option<DVec3> {
         match self.odd_tip(skeleton, joint) {
             Some(OddTip::Short) => None,
             _ => digit_tip(self, skeleton, joint),
         }
     }
 
-    /// Returns the fault of the tip of a joint, if it ends a thumb or finger and has one.
+    /// Returns the fault of the end of a joint's bone, if it ends a thumb or finger and has one.
     #[must_use]
     pub fn odd_tip(&self, skeleton: &Skeleton, joint: usize) -> Option<OddTip> {
         let own = skeleton.joint(joint);
-        let tip = own.tip?;
-        let digit = self.part_of(joint)?;
-        if !matches!(digit, Part::Thumb(..) | Part::Finger(..)) {
-            return None;
+        let end = written_end(self, skeleton, joint)?;
+        self.part_of(joint).filter(is_digit)?;
+        if usual_end(self, skeleton, joint).is_some_and(|usual| end.length() > LONG * usual) {
+            return Some(OddTip::Long);
         }
         if !skeleton.children(joint).is_empty() {
             return None;
         }
-        if tip.length() <= SHORT * own.offset.length() {
+        if end.length() <= SHORT * own.offset.length() {
             return Some(OddTip::Short);
         }
-        (digit_tip(self, skeleton, joint) != Some(tip)).then_some(OddTip::Turned)
+        (digit_tip(self, skeleton, joint) != Some(end)).then_some(OddTip::Turned)
     }
 }
 
@@ -471,6 +532,43 @@ mod tests {
     use super::super::fixtures::{PLAIN, Wear, body, roles};
     use super::*;
     use crate::skeleton::Joint;
+
+    #[test]
+    fn ends_over_twice_as_long_as_usual_are_drawn_in() {
+        let plain = body(PLAIN);
+        for (length, is_joint, is_long) in [
+            (0.72, false, true),
+            (1.0, false, true),
+            (0.72, true, true),
+            (0.03, false, false),
+            (0.03, true, false),
+        ] {
+            let mut joints = plain.joints().to_vec();
+            let name = Part::Finger(Side::Left, Finger::Middle, 3).to_string();
+            let last = plain.find(&name).expect("a last joint");
+            let tip = joints[last].tip.expect("a tip").normalize() * length;
+            joints[last].tip = Some(tip).filter(|_| !is_joint);
+            if is_joint {
+                joints.push(Joint::new("LeftHandMiddle4", Some(last), tip));
+            }
+            let skeleton = Skeleton::new(joints).expect("a tree");
+            let anatomy = Anatomy::with_roles(&skeleton, &roles(&plain)).expect("roles");
+            let case = format!("{length} m, {is_joint}");
+            let odd = anatomy.odd_tip(&skeleton, last) == Some(OddTip::Long);
+            assert_eq!(odd, is_long, "{case}");
+            let usual = Anatomy::with_roles(&plain, &roles(&plain)).expect("roles");
+            let [drawn, own] =
+                [(&skeleton, &anatomy), (&plain, &usual)].map(|(skeleton, anatomy)| {
+                    let model = skeleton.rest_model_pose();
+                    let tip = anatomy.landmark(skeleton, &model, "left-middle-tip");
+                    tip.expect("a tip").distance(model.position(last))
+                });
+            let want = if is_long { own } else { length };
+            assert!((drawn - want).abs() < 0.012, "{case}: {drawn}");
+            let [hand, own] = [anatomy, usual].map(|it| it.measures().expect("measures").hand);
+            assert!((hand / own - 1.0).abs() < 0.1, "{case}: {hand}");
+        }
+    }
 
     fn known(joints: Vec<Joint>) -> (Skeleton, Anatomy) {
         let skeleton = Skeleton::new(joints).expect("a tree");

@@ -308,9 +308,6 @@ impl Anatomy {
         if let Some(tip) = super::fingers::digit_tip(self, skeleton, last) {
             return Some(model.point(last, tip));
         }
-        if let [child] = *skeleton.children(last) {
-            return Some(model.position(child));
-        }
         let from = model.position(skeleton.parent(last)?);
         Some(model.position(last) + (model.position(last) - from) * 0.8)
     }

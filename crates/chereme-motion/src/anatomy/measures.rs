@@ -85,6 +85,9 @@ impl Measures {
 /// Distances of a hand's tip from its wrist, as shares of the usual hand, between which the tip is the end of the hand.
 const TIPS: [f64; 2] = [0.75, 1.4];
 
+/// The length of a hand's bones from which they are impossible, as a multiple of the usual hand.
+const GIANT: f64 = 2.0;
+
 fn both(measure: impl Fn(Side) -> Option<f64>) -> Option<f64> {
     let found: Vec<f64> = Side::BOTH
         .iter()
@@ -114,12 +117,11 @@ fn hand_length(
         let tip = skeleton.joint(hand).tip.map(DVec3::length);
         return tip.filter(|&length| length > least && length < most);
     };
-    let tip = match (skeleton.joint(last).tip, skeleton.children(last)) {
-        (Some(tip), _) => tip.length(),
-        (None, [child, ..]) => skeleton.joint(*child).offset.length(),
-        (None, []) => 0.8 * skeleton.joint(last).offset.length(),
-    };
-    Some(length(skeleton, last, hand) + tip)
+    let tip = super::fingers::digit_tip(anatomy, skeleton, last);
+    let tip = tip.map_or(0.8 * skeleton.joint(last).offset.length(), DVec3::length);
+    let whole = length(skeleton, last, hand) + tip;
+    // A finger of impossible bones does not make a giant's hand.
+    Some(usual.filter(|usual| whole > GIANT * usual).unwrap_or(whole))
 }
 
 /// Returns the height of the head above its joint: from its tip or a child such as `HeadTop_End`, if that is long

@@ -117,6 +117,8 @@ pub struct Anatomy {
     head: Option<landmarks::HeadFrame>,
     elbows: [Option<DVec3>; 2],
     posed: bool,
+    /// Joints that only end a digit, impossibly far away.
+    far_ends: Vec<usize>,
 }
 
 /// Returns the index of a side in pairs, right first.
@@ -157,7 +159,13 @@ impl Anatomy {
             head: None,
             elbows: [None, None],
             posed: false,
+            far_ends: Vec::new(),
         };
+        let is_long = |&joint: &usize| anatomy.odd_tip(skeleton, joint) == Some(OddTip::Long);
+        let long = (0..skeleton.len()).filter(is_long);
+        anatomy.far_ends = long
+            .flat_map(|joint| skeleton.children(joint).to_vec())
+            .collect();
         for side in Side::BOTH {
             anatomy.hands[place(side)] = fingers::HandFrame::of(&anatomy, skeleton, side);
             let hand = anatomy.joint(Part::Hand(side));
@@ -366,6 +374,15 @@ impl Anatomy {
         (hand + 1..inside.len())
             .filter(|&joint| inside[joint])
             .collect()
+    }
+
+    /// Returns the joints below the wrist of `side` that can be where they are, parents first: without ends impossibly far
+    /// away, which pictures and measures draw in.
+    #[must_use]
+    pub fn possible_fingers(&self, side: Side) -> Vec<usize> {
+        let mut fingers = self.fingers(side);
+        fingers.retain(|joint| !self.far_ends.contains(joint));
+        fingers
     }
 
     /// Returns whether the base joints of all four fingers of `side` are found.

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use chereme_motion::ends::OddFrames;
 use chereme_motion::lapses::{Lapse, Lapses};
 
 use super::*;
@@ -36,12 +37,7 @@ pub(in crate::import) fn report_odd_frames(
             remedy: Some("a recipe cuts them off: `| trim`, or `| span 0.2s..`".into()),
         });
     }
-    let starts = |at: usize| move |frames: &&Range<usize>| frames.start == at;
-    let frames = odd.iter().map(|odd| &odd.frames);
-    let start = frames.clone().find(starts(0)).map_or(0, |odd| odd.end);
-    let ends = |odd: &&Range<usize>| odd.end == stored.frames() && odd.start > start;
-    let end = frames.filter(ends).map(|odd| odd.start).min();
-    let sound = start..end.unwrap_or(stored.frames());
+    let sound = OddFrames::remaining(stored.frames(), &odd);
     let lapses = lapses(job, &stored, &anatomy, sound, progress)?;
     let texts: Vec<String> = lapses.found.iter().map(ToString::to_string).collect();
     if !texts.is_empty() {
@@ -57,6 +53,12 @@ pub(in crate::import) fn report_odd_frames(
         ));
     }
     report.understood.lapses = Some(texts);
+    if !lapses.bends {
+        report.findings.push(ReportFinding::warning(
+            "no joint of the body turns in this take: its arms and hands stand still",
+            "export the take again with the movement of all joints, and import that file; nothing is proposed for this one",
+        ));
+    }
     let distinct = lapses.moving.saturating_sub(lapses.repeated);
     if lapses.repeated as f64 > REPEATED * lapses.moving as f64 && distinct > 1 {
         let rate = stored.rate.per_second() * distinct as f64 / lapses.moving as f64;
@@ -93,6 +95,7 @@ fn lapses(
             .extend(moved.filter(|lapse| core.contains(&(lapse.frames.end - 1))));
         lapses.repeated += found.repeated;
         lapses.moving += found.moving;
+        lapses.bends |= found.bends;
         progress.report(Step {
             task: &job.file_name,
             done: core.end as u64,

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use chereme_figure::mesh::{Mesh, Vertex, trail};
 use chereme_figure::palette::HandColours;
 use chereme_figure::{Body, Colour, Framing, Palette, Theme, View, body::group};
+use chereme_motion::ends::Ends;
 use chereme_motion::{Anatomy, Clip, Face, Finger, Instant, ModelPose, Part, Side, Skeleton};
 use glam::Vec3;
 
@@ -35,7 +36,7 @@ pub(super) struct Subject {
     future: Arc<Body>,
     /// Height of the floor in metres, if the body has feet.
     floor: Option<f32>,
-    /// The point between the hips at the beginning of the movement.
+    /// The point between the hips at the beginning of the usable movement.
     middle: Vec3,
     joints: [Vec<usize>; 2],
     points: BTreeMap<i64, Vec<Vec3>>,
@@ -98,7 +99,7 @@ impl Subject {
     fn new(clip: &Clip, anatomy: &Anatomy) -> Option<Self> {
         let framing = Framing::of(clip, anatomy)?;
         let skeleton = clip.skeleton().clone();
-        let first = clip.model_pose(0);
+        let first = clip.model_pose(Ends::of(clip, anatomy).sound.start);
         let at = |joint: usize| first.position(joint).as_vec3();
         let feet = Side::BOTH.map(|side| anatomy.joint(Part::Foot(side)));
         let floor = feet.iter().flatten().next().map(|_| {
@@ -205,11 +206,8 @@ impl Subject {
 
     fn points_of(&self, pose: &ModelPose) -> Vec<Vec3> {
         let place = |&joint: &usize| {
-            let at = pose.position(joint);
-            match self.skeleton.joint(joint).tip {
-                Some(tip) => (at + pose.rotation(joint) * tip).as_vec3(),
-                None => at.as_vec3(),
-            }
+            let tip = self.anatomy.tip(&self.skeleton, joint);
+            pose.point(joint, tip.unwrap_or_default()).as_vec3()
         };
         let wrist = |joint: &usize| pose.position(*joint).as_vec3();
         self.joints
