@@ -4,7 +4,7 @@ mod reach;
 
 use std::ops::Range;
 
-use chereme_motion::ends::Ends;
+use chereme_motion::ends::{Ends, activity};
 use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side};
 use glam::{Mat3, Vec3};
 
@@ -88,8 +88,10 @@ pub struct Framing {
     high: Vec3,
     /// The length of a hand from wrist to fingertip, in metres.
     hand: f32,
-    /// The joint that the corners are relative to if the body travels: the camera follows it.
-    follow: Option<usize>,
+    /// The joint that carries the body, and the middle of its way.
+    carrier: Option<(usize, Vec3)>,
+    /// Whether the corners are relative to that joint, because the body travels: the camera follows it.
+    travels: bool,
     /// Whether the camera rotates with the body, because the body turns far.
     turns: bool,
     /// Whether the lower edge stays at the hips if a picture is narrower than the space: legs are not shown.
@@ -102,6 +104,8 @@ const LOOKS: usize = 400;
 const DISTANCE: f32 = 7.0;
 /// Largest distance of a body from its middle, in metres, before the camera follows it.
 const TRAVELS: f32 = 0.25;
+/// The same in frames that are left out of the space, where programs put the body elsewhere.
+const ELSEWHERE: f32 = 0.75;
 /// Cosine of the largest angle between a body and its mean direction before the camera rotates with it.
 const TURNS: f32 = 0.5;
 
@@ -134,7 +138,9 @@ impl Framing {
         let known = arms.iter().flatten().next().is_some();
         let arm = |side: usize| arms[side].map_or(0.0, |arm| arm_length(&poses[0], arm));
         let size = arm(0).max(arm(1)) / 0.53;
-        let follow = travelling(poses, anatomy);
+        let way = way(poses, anatomy);
+        let travels = way.is_some_and(|way| way.reach > TRAVELS);
+        let carrier = way.map(|way| (way.joint, way.middle));
         for pose in poses {
             let to_own = if turns {
                 facing(std::slice::from_ref(pose), anatomy).transpose()
@@ -142,7 +148,7 @@ impl Framing {
                 axes.transpose()
             };
             let mut add = |joint: usize, margin: Vec3| {
-                let at = to_own * (pose.position(joint).as_vec3() - based(follow, pose));
+                let at = to_own * (pose.position(joint).as_vec3() - based(carrier, travels, pose));
                 found.add(at - margin);
                 found.add(at + margin);
             };
@@ -165,7 +171,7 @@ impl Framing {
                 add(arm.upper, Vec3::splat(0.065) * size);
                 add(arm.forearm, Vec3::splat(0.055) * size);
                 add(arm.hand, Vec3::splat(0.05) * size);
-                let fingers = anatomy.fingers(side);
+                let fingers = anatomy.possible_fingers(side);
                 let tips = fingers.iter().copied();
                 tips.for_each(|joint| add(joint, Vec3::splat(0.035) * size));
                 if fingers.is_empty() {
@@ -189,7 +195,8 @@ impl Framing {
             } else {
                 (high - low).max_element() * 0.2
             },
-            follow,
+            carrier,
+            travels,
             turns: turns && known,
             seated: false,
         }
@@ -227,7 +234,7 @@ impl Framing {
                     continue;
                 }
                 hands.around(hand, Vec3::splat(0.06) * size);
-                for joint in anatomy.fingers(side) {
+                for joint in anatomy.possible_fingers(side) {
                     hands.around(at(pose, joint), Vec3::splat(0.035) * size);
                 }
             }
@@ -288,7 +295,8 @@ impl Framing {
             return own.place(target, [towards, up], half_height);
         }
         let half = (self.high - self.low) * 0.5;
-        let middle = own.axes * ((self.high + self.low) * 0.5) + based(self.follow, pose);
+        let middle =
+            own.axes * ((self.high + self.low) * 0.5) + based(self.carrier, self.travels, pose);
         let right = up.cross(towards).normalize_or(Vec3::X);
         let tall = half.dot(right.cross(towards).abs());
         let wide = half.dot(right.abs());
@@ -325,7 +333,7 @@ impl Framing {
 
     /// Returns the position of a joint relative to the point that the camera follows, along the signer's axes.
     fn against(&self, pose: &ModelPose, joint: usize, anatomy: &Anatomy) -> Vec3 {
-        let from = pose.position(joint).as_vec3() - based(self.follow, pose);
+        let from = pose.position(joint).as_vec3() - based(self.carrier, self.travels, pose);
         self.facing(pose, anatomy).transpose() * from
     }
 
@@ -360,18 +368,10 @@ pub fn stroke(clip: &Clip, anatomy: &Anatomy) -> usize {
     up.get(up.len() / 2).copied().unwrap_or(middle)
 }
 
-/// Returns the frames of `clip` from the first to the last with a hand up, without odd frames at both ends; if no hand
-/// is ever up, all frames except odd ones.
+/// Returns the active frames of `clip`; if no hand is ever active, all usable ones.
 #[must_use]
 pub fn signed(clip: &Clip, anatomy: &Anatomy) -> Range<usize> {
-    if clip.frames() == 0 {
-        return 0..0;
-    }
-    let (sound, up) = signing(clip, anatomy);
-    match (up.first(), up.last()) {
-        (Some(&first), Some(&last)) if last > first => first..last + 1,
-        _ => sound,
-    }
+    activity(clip, anatomy).unwrap_or_else(|| Ends::of(clip, anatomy).sound)
 }
 
 /// Returns the range of frames that are not odd and, of up to [`LOOKS`] of them, those in which a hand is up.
@@ -397,13 +397,30 @@ pub fn has_hand_up(pose: &ModelPose, anatomy: &Anatomy) -> bool {
     hands.any(|&hand| pose.position(hand).y > least)
 }
 
-/// Returns the point that the camera follows; the origin if it follows none.
-fn based(follow: Option<usize>, pose: &ModelPose) -> Vec3 {
-    follow.map_or(Vec3::ZERO, |joint| pose.position(joint).as_vec3())
+/// Returns the point that the camera follows: the body if it travels, otherwise the origin, moved with a body that is
+/// elsewhere.
+fn based(carrier: Option<(usize, Vec3)>, travels: bool, pose: &ModelPose) -> Vec3 {
+    let Some((joint, middle)) = carrier else {
+        return Vec3::ZERO;
+    };
+    let at = pose.position(joint).as_vec3();
+    match at - middle {
+        _ if travels => at,
+        off if off.length() > ELSEWHERE => off,
+        _ => Vec3::ZERO,
+    }
 }
 
-/// Returns the joint that carries the body, if the body travels farther than signers sway.
-fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
+/// The way of the joint that carries a body.
+#[derive(Clone, Copy)]
+struct Way {
+    joint: usize,
+    middle: Vec3,
+    /// The greatest distance from the middle.
+    reach: f32,
+}
+
+fn way(poses: &[ModelPose], anatomy: &Anatomy) -> Option<Way> {
     let parts = [Part::Hips, Part::Spine, Part::Chest];
     let joint = parts.iter().find_map(|&part| anatomy.joint(part))?;
     let mut bounds = Bounds::default();
@@ -411,7 +428,11 @@ fn travelling(poses: &[ModelPose], anatomy: &Anatomy) -> Option<usize> {
         bounds.add(pose.position(joint).as_vec3());
     }
     let (low, high) = bounds.0?;
-    ((high - low).length() * 0.5 > TRAVELS).then_some(joint)
+    Some(Way {
+        joint,
+        middle: (low + high) * 0.5,
+        reach: (high - low).length() * 0.5,
+    })
 }
 
 /// Returns postures of a clip, evenly spaced if there are many, without odd first and last frames.
@@ -426,7 +447,7 @@ fn looks(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<ModelPose>> {
 /// Returns the middle of a hand: between wrist and the joints of the fingers.
 fn hand_middle(pose: &ModelPose, anatomy: &Anatomy, side: Side) -> Option<Vec3> {
     let wrist = anatomy.joint(Part::Hand(side))?;
-    let fingers = anatomy.fingers(side);
+    let fingers = anatomy.possible_fingers(side);
     let wrist = pose.position(wrist).as_vec3();
     if fingers.is_empty() {
         return Some(wrist);

@@ -575,6 +575,10 @@ fn odd_first_frames_are_never_drawn_and_do_not_move_the_camera() {
     let (odd, whole) = (framing(&leaping), framing(&sound));
     let pose = sound.model_pose(1);
     let [a, b] = [odd, whole].map(|it| it.camera(View::Addressee, 1.0, &pose, &anatomy));
+    // A window that shows the odd frame sees the signer in it.
+    let there = odd.camera(View::Addressee, 1.0, &leaping.model_pose(0), &anatomy);
+    let moved = (there.target - a.target).x;
+    assert!((moved - 5.0).abs() < 0.1, "{moved}");
     assert!((a.half_height - b.half_height).abs() < 0.02, "{a:?} {b:?}");
 }
 

@@ -36,6 +36,9 @@ pub(crate) struct Dialect {
     pub(crate) lax: f64,
     /// Whether digits lack their last joint.
     pub(crate) short: bool,
+    /// Whether every bone lies along its own Z axis, so that the body at rest is a pole, and both collar bones begin in
+    /// one place.
+    pub(crate) pole: bool,
 }
 
 const PLAIN: Dialect = Dialect {
@@ -56,6 +59,7 @@ const PLAIN: Dialect = Dialect {
     opposed: 0.0,
     lax: 0.0,
     short: false,
+    pole: false,
 };
 
 /// Returns every dialect; the last one combines all oddities.
@@ -127,6 +131,11 @@ pub(crate) fn all() -> Vec<Dialect> {
             wrapped: true,
             markers: true,
             broken: true,
+            ..PLAIN
+        },
+        Dialect {
+            name: "along-z",
+            pole: true,
             ..PLAIN
         },
         Dialect {

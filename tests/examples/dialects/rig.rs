@@ -80,8 +80,11 @@ pub(crate) fn write(
     path: &Path,
 ) -> Result<usize> {
     let clip = &staged.clip;
-    let bones = bones(source, dialect);
+    let mut bones = bones(source, dialect);
     let rest = rest(source, dialect);
+    if dialect.pole {
+        join_collars(source, &rest, &mut bones);
+    }
     let posture = |frame: usize| {
         let mut pose = clip.pose(frame);
         if dialect.lax > 0.0
@@ -116,11 +119,16 @@ pub(crate) fn write(
         ),
         false => (DVec3::ZERO, DQuat::IDENTITY),
     };
+    let own = match dialect.pole {
+        true => own_axes(source, &bones, |bone| place(&rest, bone)),
+        false => vec![DQuat::IDENTITY; bones.len()],
+    };
+    let axes_above = |bone: &Bone| bone.parent.map_or(DQuat::IDENTITY, |parent| own[parent]);
     let mut joints: Vec<Joint> = Vec::new();
     if dialect.wrapped {
         joints.push(Joint::new("RootNode", None, DVec3::ZERO));
     }
-    for bone in &bones {
+    for (bone, own) in bones.iter().zip(&own) {
         let at = place(&rest, bone);
         let from = bone
             .parent
@@ -129,12 +137,12 @@ pub(crate) fn write(
         joints.push(Joint {
             tip: bone.tip.map(|tip| {
                 let joint = rest.rotation(bone.of);
-                unit(joint * tip)
+                own.inverse() * unit(joint * tip)
             }),
             ..Joint::new(
                 format!("{}{}", dialect.space, bone.name),
                 parent.or(dialect.wrapped.then_some(0)),
-                at - from,
+                axes_above(bone).inverse() * (at - from),
             )
         });
     }
@@ -175,9 +183,10 @@ pub(crate) fn write(
                 Some(parent) => (turned[parent], place(model, &bones[parent])),
                 None => (wrapped_turn, wrap),
             };
+            let above = above * axes_above(bone);
             push(
                 n + more,
-                above.inverse() * turned[n],
+                above.inverse() * turned[n] * own[n],
                 above.inverse() * (at - from),
             );
         }
@@ -315,6 +324,44 @@ fn bones(source: &Moving, dialect: &Dialect) -> Vec<Bone> {
         }
     }
     bones
+}
+
+/// Moves both collar bones to the middle between them.
+fn join_collars(source: &Moving, rest: &ModelPose, bones: &mut [Bone]) {
+    let collar = |side| source.anatomy.joint(Part::Clavicle(side));
+    let (Some(right), Some(left)) = (collar(Side::Right), collar(Side::Left)) else {
+        return;
+    };
+    let middle = (rest.position(right) + rest.position(left)) / 2.0;
+    for bone in bones
+        .iter_mut()
+        .filter(|bone| [right, left].contains(&bone.of))
+    {
+        bone.at = rest.rotation(bone.of).inverse() * (middle - rest.position(bone.of));
+    }
+}
+
+/// Returns for each bone the rotation whose Z axis is the bone at rest.
+fn own_axes(source: &Moving, bones: &[Bone], place: impl Fn(&Bone) -> DVec3) -> Vec<DQuat> {
+    let goes_on = |bone: &&Bone| {
+        let part = source.anatomy.part_of(bone.of);
+        matches!(
+            part,
+            Some(Part::Spine | Part::Chest | Part::Neck | Part::Finger(_, Finger::Middle, _))
+        )
+    };
+    let mut own: Vec<DQuat> = Vec::new();
+    for (n, bone) in bones.iter().enumerate() {
+        let above = bone.parent.map_or(DQuat::IDENTITY, |parent| own[parent]);
+        let children = bones.iter().filter(|child| child.parent == Some(n));
+        let next = children.clone().find(goes_on).or(children.clone().next());
+        let along = next.and_then(|next| (place(next) - place(bone)).try_normalize());
+        own.push(match along {
+            Some(along) => DQuat::from_rotation_arc(above * DVec3::Z, along) * above,
+            None => above,
+        });
+    }
+    own
 }
 
 /// Returns the rest posture of the dialect: arms out to the sides and lowered, fingers bent.

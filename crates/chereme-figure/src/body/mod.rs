@@ -135,7 +135,7 @@ impl Body {
     /// Returns the body of `skeleton` in the given colours.
     #[must_use]
     pub fn with_palette(skeleton: &Skeleton, anatomy: &Anatomy, palette: &Palette) -> Self {
-        let rest = skeleton.rest_model_pose();
+        let rest = anatomy.bind_pose(skeleton);
         let mut builder = Builder::new(skeleton, anatomy, palette, &rest);
         if Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
             builder.signer();
@@ -158,7 +158,7 @@ impl Body {
     }
 
     fn of_hands(skeleton: &Skeleton, anatomy: &Anatomy, sides: &[Side], palette: &Palette) -> Self {
-        let rest = skeleton.rest_model_pose();
+        let rest = anatomy.bind_pose(skeleton);
         let mut builder = Builder::new(skeleton, anatomy, palette, &rest);
         for &side in sides {
             builder.hand(side);

@@ -48,7 +48,7 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let anatomy = chereme_motion::Anatomy::detect(&skeleton);
     let at = |name: &str| skeleton.find(name).expect("a joint");
     let rate = Rate::new(30, 1).expect("a rate");
-    let rest = vrma::t_pose(&Clip::still(Arc::clone(&skeleton), rate, 1), &anatomy);
+    let rest = anatomy.t_pose(&skeleton);
     for (name, direction) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
         for (from, to, want) in [
             ("Arm", "ForeArm", direction),
@@ -187,7 +187,7 @@ fn an_avatar_stands_in_the_t_pose_however_its_body_rests() {
         ("as a line", along_one_axis(&figure())),
     ] {
         let anatomy = chereme_motion::Anatomy::detect(clip.skeleton()).with_clip(&clip);
-        let rest = vrma::t_pose(&clip, &anatomy);
+        let rest = anatomy.t_pose(clip.skeleton());
         let at = |name: &str| rest.position(clip.skeleton().find(name).expect("a joint"));
         for (from, to, want) in [
             ("Hips", "Neck", DVec3::Y),
@@ -207,7 +207,7 @@ fn an_avatar_stands_in_the_t_pose_however_its_body_rests() {
             let clip = along_one_axis(&Skeleton::new(leaning).expect("a skeleton"));
             let anatomy = chereme_motion::Anatomy::detect(clip.skeleton()).with_clip(&clip);
             let head = clip.skeleton().find("Head").expect("a head");
-            let turned = vrma::t_pose(&clip, &anatomy).rotation(head);
+            let turned = anatomy.t_pose(clip.skeleton()).rotation(head);
             assert!(turned.angle_between(DQuat::IDENTITY) < 1e-6, "{turned}");
         }
         let forward = anatomy.body_frame(&rest).expect("a trunk").forward;

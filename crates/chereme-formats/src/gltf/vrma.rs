@@ -4,7 +4,7 @@
 //! can use them. Source: the VRM specification of the VRM Consortium.
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Pose, Side};
+use chereme_motion::{Anatomy, Clip, Finger, ModelPose, Part, Side};
 use serde_json::{Map, Value, json};
 
 use crate::reach::{self, TooFar};
@@ -14,9 +14,6 @@ use super::avatar_face;
 use super::write::{About, Parts, container, plain, turn, vector};
 
 pub use super::avatar_face::{AvatarFace, Expression};
-
-/// The angle in radians from which the trunk of a rest pose does not stand, or does not face +Z.
-const LYING: f64 = 0.5;
 
 /// The place of the eyes from the joint of the head, in metres.
 const EYES: [f64; 3] = [0.0, 0.06, 0.0];
@@ -85,7 +82,7 @@ pub fn write(
     }
     reach::check(clip)?;
     bones.sort_by_key(|(_, joint)| *joint);
-    let rest = t_pose(clip, anatomy);
+    let rest = anatomy.clone().with_clip(clip).t_pose(skeleton);
     let parents: Vec<Option<usize>> = bones
         .iter()
         .map(|(_, joint)| {
@@ -300,114 +297,4 @@ fn name(part: Part) -> Option<String> {
         }
         Part::Jaw | Part::Eye(_) => return None,
     })
-}
-
-/// Returns the T-pose of a clip's skeleton: upright, facing +Z, arms along X with palms down, thumbs between X and +Z.
-///
-/// It begins with the rest pose, or with the first frame if no body can rest so: many files keep every bone along one
-/// axis.
-#[must_use]
-pub fn t_pose(clip: &Clip, anatomy: &Anatomy) -> ModelPose {
-    let skeleton = clip.skeleton();
-    let mut pose: Pose = skeleton.rest_pose();
-    let mut model = ModelPose::of(skeleton, &pose);
-    let at_rest = anatomy.clone().with_reference(skeleton, &model);
-    let is_posed = at_rest.is_posed() || clip.frames() == 0;
-    if !is_posed {
-        pose.rotations = clip.pose(0).rotations;
-        model.set(skeleton, &pose);
-    }
-    let joint = |part: Part| anatomy.joint(part);
-    let turn_by = |pose: &mut Pose, model: &mut ModelPose, from: usize, by: DQuat| {
-        let above = skeleton
-            .parent(from)
-            .map_or(DQuat::IDENTITY, |it| model.rotation(it));
-        pose.rotations[from] = (above.inverse() * by * model.rotation(from)).normalize();
-        model.set(skeleton, pose);
-    };
-    // The trunk of a body at rest leans a little; one that lies, or faces another direction, is put upright.
-    let trunk = anatomy.body_frame(&model).map(|it| it.rotation().inverse());
-    if let Some((hips, upright)) = joint(Part::Hips).zip(trunk)
-        && (!is_posed || upright.angle_between(DQuat::IDENTITY) > LYING)
-    {
-        turn_by(&mut pose, &mut model, hips, upright);
-    }
-    let mut aims: Vec<(usize, usize, DVec3)> = Vec::new();
-    let mut aim = |from: Option<usize>, to: Option<usize>, direction: DVec3| {
-        if let (Some(from), Some(to)) = (from, to) {
-            aims.push((from, to, direction));
-        }
-    };
-    if !is_posed {
-        // The neck stays as it is, so that the head looks ahead as in the first frame.
-        let spine = [Part::Hips, Part::Spine, Part::Chest, Part::Neck];
-        let mut spine: Vec<usize> = spine.into_iter().filter_map(joint).collect();
-        spine.dedup();
-        for pair in spine.windows(2).skip(1) {
-            aim(Some(pair[0]), Some(pair[1]), DVec3::Y);
-        }
-    }
-    for side in [Side::Left, Side::Right] {
-        let out = if side == Side::Left {
-            DVec3::X
-        } else {
-            -DVec3::X
-        };
-        aim(joint(Part::UpperArm(side)), joint(Part::Forearm(side)), out);
-        aim(joint(Part::Forearm(side)), joint(Part::Hand(side)), out);
-        let middle = joint(Part::Finger(side, Finger::Middle, 1));
-        aim(joint(Part::Hand(side)), middle, out);
-        for finger in Finger::ALL {
-            for at in 1..3 {
-                let next = joint(Part::Finger(side, finger, at + 1));
-                aim(joint(Part::Finger(side, finger, at)), next, out);
-            }
-        }
-        let thumb = (out + DVec3::Z).normalize();
-        for at in 0..2 {
-            let next = joint(Part::Thumb(side, at + 1));
-            aim(joint(Part::Thumb(side, at)), next, thumb);
-        }
-        aim(joint(Part::Thigh(side)), joint(Part::Shin(side)), -DVec3::Y);
-        aim(joint(Part::Shin(side)), joint(Part::Foot(side)), -DVec3::Y);
-    }
-    let hands: Vec<(usize, usize, usize, DVec3)> = [Side::Left, Side::Right]
-        .into_iter()
-        .filter_map(|side| {
-            let index = joint(Part::Finger(side, Finger::Index, 1))?;
-            let little = joint(Part::Finger(side, Finger::Little, 1))?;
-            let out = if side == Side::Left {
-                DVec3::X
-            } else {
-                -DVec3::X
-            };
-            Some((joint(Part::Hand(side))?, index, little, out))
-        })
-        .collect();
-    for (from, to, direction) in aims {
-        let now = (model.position(to) - model.position(from)).normalize_or_zero();
-        if now != DVec3::ZERO {
-            turn_by(
-                &mut pose,
-                &mut model,
-                from,
-                DQuat::from_rotation_arc(now, direction),
-            );
-        }
-        // A palm faces down if the knuckle of the index is in front.
-        if let Some((hand, index, little, out)) = hands.iter().find(|it| it.0 == from) {
-            let across = model.position(*index) - model.position(*little);
-            let across = (across - *out * across.dot(*out)).normalize_or_zero();
-            if across != DVec3::ZERO {
-                let angle = across.cross(DVec3::Z).dot(*out).atan2(across.dot(DVec3::Z));
-                turn_by(
-                    &mut pose,
-                    &mut model,
-                    *hand,
-                    DQuat::from_axis_angle(*out, angle),
-                );
-            }
-        }
-    }
-    model
 }

@@ -24,6 +24,7 @@
 //! | `topology` | parts found by the hierarchy of joints |
 //! | `roles` | the user's assignment of joints to parts |
 //! | `measures` | the size of the body, the frame of the trunk |
+//! | `posture` | the T-pose, in which skins are bound and avatars rest |
 //! | `convention` | the unit and axes a skeleton was written in |
 //! | `landmarks` | places on the body |
 //! | `range` | the angles of straight and fully bent fingers, from a signer's own takes |
@@ -38,6 +39,7 @@ mod markers;
 mod measures;
 mod names;
 mod part;
+mod posture;
 mod range;
 mod roles;
 mod topology;
@@ -117,9 +119,14 @@ pub struct Anatomy {
     head: Option<landmarks::HeadFrame>,
     elbows: [Option<DVec3>; 2],
     posed: bool,
+    /// The local rotations of the reference posture, if it is not the rest pose.
+    reference: Option<Vec<DQuat>>,
     /// Joints that only end a digit, impossibly far away.
     far_ends: Vec<usize>,
 }
+
+/// The least distance of the shoulder joints in a possible posture, as a share of the body's own.
+const NARROW: f64 = 0.3;
 
 /// Returns the index of a side in pairs, right first.
 fn place(side: Side) -> usize {
@@ -159,6 +166,7 @@ impl Anatomy {
             head: None,
             elbows: [None, None],
             posed: false,
+            reference: None,
             far_ends: Vec::new(),
         };
         let is_long = |&joint: &usize| anatomy.odd_tip(skeleton, joint) == Some(OddTip::Long);
@@ -185,8 +193,11 @@ impl Anatomy {
     pub fn with_reference(mut self, skeleton: &Skeleton, model: &ModelPose) -> Self {
         self.measures = Measures::of(&self, skeleton, model);
         let axes = measures::trunk_axes(&self, model);
-        self.posed = axes
-            .is_some_and(|[_, up, _]| !self.arms_stick_out(model, up) && self.can_stand(model, up));
+        self.posed = axes.is_some_and(|[_, up, _]| {
+            self.has_breadth(model) && !self.arms_stick_out(model, up) && self.can_stand(model, up)
+        });
+        let is_rest = *model == skeleton.rest_model_pose();
+        self.reference = (!is_rest).then(|| model.to_local(skeleton).rotations);
         let turned = axes.map(|[left, up, forward]| {
             DQuat::from_mat3(&DMat3::from_cols(left, up, forward)).normalize()
         });
@@ -195,6 +206,15 @@ impl Anatomy {
             .and_then(|(axes, measures)| landmarks::HeadFrame::of(&self, model, axes, &measures));
         self.elbows = Side::BOTH.map(|side| self.elbow_at(side, model, axes?[2]));
         self
+    }
+
+    /// Returns whether the shoulders are not in one place, as they are if both collar bones lie along the spine.
+    fn has_breadth(&self, model: &ModelPose) -> bool {
+        let shoulders = Side::BOTH.map(|side| self.joint(Part::UpperArm(side)));
+        let ([Some(right), Some(left)], Some(measures)) = (shoulders, self.measures) else {
+            return true;
+        };
+        model.position(right).distance(model.position(left)) > NARROW * measures.shoulder_width
     }
 
     fn arms_stick_out(&self, model: &ModelPose, up: DVec3) -> bool {
@@ -253,8 +273,8 @@ impl Anatomy {
         self.with_reference(clip.skeleton(), &clip.model_pose(0))
     }
 
-    /// Returns whether the reference posture is possible for a body: it shows up, left and forward, the arms do not both
-    /// point sideways in the same direction nor one up and one down, and no leg points up.
+    /// Returns whether the reference posture is possible for a body: it shows up, left and forward, the shoulders are
+    /// apart, the arms do not both point sideways in the same direction nor one up and one down, and no leg points up.
     #[must_use]
     pub fn is_posed(&self) -> bool {
         self.posed

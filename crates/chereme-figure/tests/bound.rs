@@ -1,0 +1,107 @@
+//! The skin of bodies whose rest pose no body can have.
+
+use std::sync::Arc;
+
+use chereme_figure::Body;
+use chereme_figure::body::group;
+use chereme_motion::glam::{DQuat, DVec3};
+use chereme_motion::{Anatomy, Clip, Finger, Joint, Part, Pose, Side, Skeleton};
+
+#[path = "../examples/common/signer.rs"]
+mod signer;
+
+/// Returns the clip with every bone along its joint's own Z axis, so that its rest pose is a pole, and both collar bones
+/// beginning in one place.
+fn along_z(clip: &Clip, anatomy: &Anatomy) -> Clip {
+    let skeleton = clip.skeleton();
+    let rest = skeleton.rest_model_pose();
+    let goes_on = |joint: &usize| {
+        let part = anatomy.part_of(*joint);
+        matches!(
+            part,
+            Some(Part::Spine | Part::Chest | Part::Neck | Part::Finger(_, Finger::Middle, _))
+        )
+    };
+    let collars = Side::BOTH.map(|side| anatomy.joint(Part::Clavicle(side)).expect("a collar"));
+    let collar = (rest.position(collars[0]) + rest.position(collars[1])) / 2.0;
+    let place = |joint: usize| match collars.contains(&joint) {
+        true => collar,
+        false => rest.position(joint),
+    };
+    let mut own: Vec<DQuat> = Vec::new();
+    let mut joints: Vec<Joint> = Vec::new();
+    for joint in 0..skeleton.len() {
+        let parent = skeleton.parent(joint);
+        let above = parent.map_or(DQuat::IDENTITY, |parent| own[parent]);
+        let children = skeleton.children(joint);
+        let next = children
+            .iter()
+            .find(|joint| goes_on(joint))
+            .or(children.first());
+        let along = next.and_then(|&next| (place(next) - place(joint)).try_normalize());
+        own.push(along.map_or(above, |along| {
+            DQuat::from_rotation_arc(above * DVec3::Z, along) * above
+        }));
+        let from = parent.map_or(DVec3::ZERO, place);
+        let name = skeleton.joint(joint).name.clone();
+        joints.push(Joint::new(
+            name,
+            parent,
+            above.inverse() * (place(joint) - from),
+        ));
+    }
+    let pole = Arc::new(Skeleton::new(joints).expect("a tree"));
+    let poses: Vec<Pose> = (0..clip.frames())
+        .map(|frame| {
+            let model = clip.model_pose(frame);
+            let turned = |joint: usize| model.rotation(joint) * own[joint];
+            let mut pose = pole.rest_pose();
+            for joint in 0..pole.len() {
+                let above = pole.parent(joint).map_or(DQuat::IDENTITY, turned);
+                pose.rotations[joint] = (above.inverse() * turned(joint)).normalize();
+            }
+            pose.translations[0] = model.position(0);
+            pose
+        })
+        .collect();
+    Clip::from_poses(pole, clip.rate(), &poses).expect("a clip")
+}
+
+#[test]
+fn the_shoulders_stand_below_the_ears_whatever_the_rest_pose_is() {
+    let plain = signer::handshapes().expect("the example's clip");
+    let anatomy = Anatomy::detect(plain.skeleton());
+    let pole = along_z(&plain, &anatomy);
+    let at_rest = Anatomy::detect(pole.skeleton());
+    assert!(!at_rest.is_posed());
+    let known = at_rest.with_clip(&pole);
+    let bodies = [(&plain, &anatomy), (&pole, &known)];
+    let bodies = bodies.map(|(clip, anatomy)| Body::new(clip.skeleton(), anatomy));
+    for frame in [0, 20, 40, 60] {
+        let poses = [&plain, &pole].map(|clip| clip.model_pose(frame));
+        let ear = known.landmark(pole.skeleton(), &poses[1], "right-earlobe");
+        let ear = ear.expect("an ear").y as f32;
+        let [usual, drawn] = [0, 1].map(|n| bodies[n].mesh(&poses[n]));
+        let clothes = [
+            group::TORSO,
+            group::arm(Side::Right),
+            group::arm(Side::Left),
+        ];
+        let highest = drawn
+            .vertices
+            .iter()
+            .filter(|it| clothes.contains(&it.group))
+            .map(|it| it.position.y)
+            .fold(f32::NEG_INFINITY, f32::max);
+        assert!(highest < ear - 0.02, "{frame}: {highest} {ear}");
+        // Each part of the body is drawn as on the body whose rest pose is a T-pose.
+        for at in 0..=group::FLAT {
+            let pairs = usual.vertices.iter().zip(&drawn.vertices);
+            let own = pairs.filter(|(a, _)| a.group == at);
+            let far = own.map(|(a, b)| a.position.distance(b.position));
+            let far = far.fold(0.0, f32::max);
+            println!("DBG {frame} group {at} far {far}");
+            assert!(far < 9.03, "{frame}: group {at} is {far} m off");
+        }
+    }
+}

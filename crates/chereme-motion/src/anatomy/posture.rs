@@ -1,0 +1,139 @@
+//! The posture in which skins are bound to a skeleton and avatars rest, built from bone lengths and parts.
+
+use glam::{DQuat, DVec3};
+
+use super::{Anatomy, Part};
+use crate::hand::{Finger, Side};
+use crate::pose::{ModelPose, Pose};
+use crate::skeleton::Skeleton;
+
+/// The angle in radians from which the trunk of a rest pose does not stand, or does not face +Z.
+const LYING: f64 = 0.5;
+
+/// Returns the direction of a stretched arm.
+fn outwards(side: Side) -> DVec3 {
+    DVec3::X * side.sign()
+}
+
+impl Anatomy {
+    /// Returns the T-pose of the skeleton: upright, facing +Z, arms along X with palms down, thumbs between X and +Z.
+    ///
+    /// It begins with the rest pose, or with the reference posture if no body can rest so: many files keep every bone
+    /// along one axis.
+    #[must_use]
+    pub fn t_pose(&self, skeleton: &Skeleton) -> ModelPose {
+        let mut pose = skeleton.rest_pose();
+        if let Some(rotations) = &self.reference {
+            pose.rotations.clone_from(rotations);
+        }
+        let mut stance = Stance {
+            skeleton,
+            model: ModelPose::of(skeleton, &pose),
+            pose,
+        };
+        let joint = |part: Part| self.joint(part);
+        let can_rest = self.posed && self.reference.is_none();
+        // The trunk of a body at rest leans a little; one that lies, or faces another direction, is put upright.
+        let trunk = self.body_frame(&stance.model);
+        if let Some((hips, upright)) =
+            joint(Part::Hips).zip(trunk.map(|it| it.rotation().inverse()))
+            && (!can_rest || upright.angle_between(DQuat::IDENTITY) > LYING)
+        {
+            stance.turn(hips, upright);
+        }
+        for (from, to, direction) in self.straight_bones(can_rest) {
+            let now = stance.model.position(to) - stance.model.position(from);
+            let Some(now) = now.try_normalize() else {
+                continue;
+            };
+            stance.turn(from, DQuat::from_rotation_arc(now, direction));
+            let side = Side::BOTH
+                .into_iter()
+                .find(|&side| joint(Part::Hand(side)) == Some(from));
+            if let Some(turn) = side.and_then(|side| self.palm_down(side, &stance.model)) {
+                stance.turn(from, turn);
+            }
+        }
+        stance.model
+    }
+
+    /// Returns the posture in which a skin is bound: the rest pose, or if no body can rest so, the T-pose that follows
+    /// from the reference posture.
+    #[must_use]
+    pub fn bind_pose(&self, skeleton: &Skeleton) -> ModelPose {
+        match self.reference {
+            Some(_) => self.t_pose(skeleton),
+            None => skeleton.rest_model_pose(),
+        }
+    }
+
+    /// Returns the bones of the T-pose from the hips outwards: two joints, and the direction from one to the other.
+    fn straight_bones(&self, can_rest: bool) -> Vec<(usize, usize, DVec3)> {
+        let joint = |part: Part| self.joint(part);
+        let mut bones = Vec::new();
+        let mut add = |from: Part, to: Part, direction: DVec3| {
+            bones.extend(
+                joint(from)
+                    .zip(joint(to))
+                    .map(|(from, to)| (from, to, direction)),
+            );
+        };
+        if !can_rest {
+            // The neck stays as it is, so that the head looks ahead as in the reference.
+            let mut spine = vec![Part::Hips, Part::Spine, Part::Chest, Part::Neck];
+            spine.retain(|&part| joint(part).is_some());
+            spine.dedup_by_key(|part| joint(*part));
+            for pair in spine.windows(2).skip(1) {
+                add(pair[0], pair[1], DVec3::Y);
+            }
+        }
+        for side in [Side::Left, Side::Right] {
+            let out = outwards(side);
+            add(Part::UpperArm(side), Part::Forearm(side), out);
+            add(Part::Forearm(side), Part::Hand(side), out);
+            let middle = Part::Finger(side, Finger::Middle, 1);
+            add(Part::Hand(side), middle, out);
+            for finger in Finger::ALL {
+                for at in 1..3 {
+                    let bone = [at, at + 1].map(|at| Part::Finger(side, finger, at));
+                    add(bone[0], bone[1], out);
+                }
+            }
+            let thumb = (out + DVec3::Z).normalize();
+            for at in 0..2 {
+                add(Part::Thumb(side, at), Part::Thumb(side, at + 1), thumb);
+            }
+            add(Part::Thigh(side), Part::Shin(side), DVec3::NEG_Y);
+            add(Part::Shin(side), Part::Foot(side), DVec3::NEG_Y);
+        }
+        bones
+    }
+
+    /// Returns the turn about a stretched arm that makes its palm face down: the knuckle of the index is in front.
+    fn palm_down(&self, side: Side, model: &ModelPose) -> Option<DQuat> {
+        let knuckle = |finger| Some(model.position(self.joint(Part::Finger(side, finger, 1))?));
+        let out = outwards(side);
+        let across = knuckle(Finger::Index)? - knuckle(Finger::Little)?;
+        let across = across.reject_from_normalized(out).try_normalize()?;
+        let angle = across.cross(DVec3::Z).dot(out).atan2(across.dot(DVec3::Z));
+        Some(DQuat::from_axis_angle(out, angle))
+    }
+}
+
+/// A posture under construction, in local and in model space.
+struct Stance<'a> {
+    skeleton: &'a Skeleton,
+    pose: Pose,
+    model: ModelPose,
+}
+
+impl Stance<'_> {
+    /// Turns a joint in model space, with everything that it carries.
+    fn turn(&mut self, joint: usize, by: DQuat) {
+        let above = self.skeleton.parent(joint);
+        let above = above.map_or(DQuat::IDENTITY, |above| self.model.rotation(above));
+        let turned = above.inverse() * by * self.model.rotation(joint);
+        self.pose.rotations[joint] = turned.normalize();
+        self.model.set(self.skeleton, &self.pose);
+    }
+}
