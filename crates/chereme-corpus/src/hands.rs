@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::ops::Range;
 
+use chereme_motion::lapses::has_bending_joints;
 use chereme_motion::{Anatomy, Clip, HandCorrection, HandRange, Part, Side};
 use rusqlite::Connection;
 
@@ -37,6 +39,24 @@ pub(crate) struct Kept {
     found: BTreeMap<i64, [HandCorrection; 2]>,
     hands: BTreeMap<(i64, Option<String>), Bones>,
     resting: BTreeMap<i64, Vec<Side>>,
+    takes: BTreeMap<i64, UsableTake>,
+}
+
+/// The part of a recording that pictures and measures use.
+#[derive(Debug, Clone)]
+pub(crate) struct UsableTake {
+    /// The frames without odd ones at the ends.
+    pub(crate) frames: Range<usize>,
+    /// Whether any joint turns in them, besides those that carry the whole body.
+    pub(crate) bends: bool,
+}
+
+impl UsableTake {
+    /// Returns the usable ones of some frames; all of them if none is.
+    pub(crate) fn within(&self, frames: Range<usize>) -> Range<usize> {
+        let usable = frames.start.max(self.frames.start)..frames.end.min(self.frames.end);
+        if usable.is_empty() { frames } else { usable }
+    }
 }
 
 /// The lengths of the bones of both hands in metres, by the part at their ends.
@@ -55,6 +75,38 @@ impl Corpus {
         let row = address::recording(connection, recording)?;
         corrections(connection, &self.hands, &row)
     }
+}
+
+/// Returns the usable part of a recording that has movement; it is cached until the corpus changes. All of a generated
+/// recording is usable.
+pub(crate) fn usable_take(
+    connection: &Connection,
+    kept: &RefCell<Kept>,
+    row: &RecordingRow,
+) -> Result<UsableTake> {
+    let mut kept = kept.borrow_mut();
+    kept.renew(connection)?;
+    if let Some(known) = kept.takes.get(&row.id) {
+        return Ok(known.clone());
+    }
+    let track = MotionTrack::of(connection, row.id)?;
+    let mut take = UsableTake {
+        frames: 0..track.frames(),
+        bends: row.origin == Origin::Made || track.frames() < 2,
+    };
+    if row.origin != Origin::Made {
+        let anatomy = track.anatomy(connection)?;
+        take.frames = track.usable_frames(connection, &anatomy)?;
+        let mut start = take.frames.start;
+        while start < take.frames.end && !take.bends {
+            let end = (start + BLOCK_FRAMES).min(take.frames.end);
+            let clip = track.clip(connection, start..end, &ChannelGroup::ALL)?;
+            take.bends = has_bending_joints(&clip, &anatomy);
+            start = end;
+        }
+    }
+    kept.takes.insert(row.id, take.clone());
+    Ok(take)
 }
 
 /// Returns the hands of a recording whose fingers all stay at rest in every frame: nobody captured them, as in a body that
@@ -199,14 +251,7 @@ fn observe(
     if Side::BOTH.iter().all(|&side| !anatomy.has_fingers(side)) {
         return Ok(());
     }
-    let mut sound = 0..track.frames();
-    for odd in track.odd_frames(connection, anatomy)? {
-        if odd.frames.start <= sound.start {
-            sound.start = sound.start.max(odd.frames.end);
-        } else {
-            sound.end = sound.end.min(odd.frames.start);
-        }
-    }
+    let sound = track.usable_frames(connection, anatomy)?;
     let step = (track.rate.per_second() / RATE).round().max(1.0) as usize;
     let parts = sound.len().div_ceil(BLOCK_FRAMES).min(BLOCKS);
     for part in 0..parts {

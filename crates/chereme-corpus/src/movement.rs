@@ -510,6 +510,16 @@ impl MotionTrack {
         frames.clamp(1, BLOCK_FRAMES).min(self.frames().max(1))
     }
 
+    /// Returns the frames of the recording without odd ones at its ends.
+    pub(crate) fn usable_frames(
+        &self,
+        connection: &Connection,
+        anatomy: &Anatomy,
+    ) -> Result<Range<usize>> {
+        let odd = self.odd_frames(connection, anatomy)?;
+        Ok(OddFrames::remaining(self.frames(), &odd))
+    }
+
     /// Returns the odd frames at both ends of the recording.
     pub(crate) fn odd_frames(
         &self,

@@ -187,6 +187,32 @@ impl Corpus {
         self.movement_in(address, None, &ChannelGroup::ALL)
     }
 
+    /// Returns the movement at an address without frames that are left out of measures and pictures.
+    ///
+    /// # Errors
+    /// As [`movement`](Self::movement).
+    pub fn usable_movement(&self, address: &Address) -> Result<Moving> {
+        let stretch = address::stretch(self.store.read(), address)?;
+        let span = self.usable_span(&stretch)?;
+        self.movement_in(address, Some(span), &ChannelGroup::ALL)
+    }
+
+    /// Returns the span of a stretch's usable frames; all of it if its recording has no movement.
+    fn usable_span(&self, stretch: &Stretch) -> Result<Span> {
+        let (connection, recording) = (self.store.read(), &stretch.recording);
+        if recordings::body_track(connection, recording.id)?.is_none() {
+            return Ok(stretch.span);
+        }
+        let track = MotionTrack::of(connection, recording.id)?;
+        let take = crate::hands::usable_take(connection, &self.hands, recording)?;
+        let all = track.frames_in(stretch.span);
+        let usable = take.within(all.clone());
+        if usable == all {
+            return Ok(stretch.span);
+        }
+        Ok(track.rate.span(usable).shifted(track.row.offset_us))
+    }
+
     /// Returns part of the movement at an address: a span of the recording, and some channel groups; joints of other
     /// groups stay at rest.
     ///
@@ -248,7 +274,7 @@ impl Corpus {
                 return self.draw_notated(&notated, to, options, progress);
             }
         };
-        let span = drawable(stretch.span)?;
+        let span = drawable(self.usable_span(&stretch)?)?;
         // A face from points on film is shown on the program's own body.
         let own = options.face && face::has_face(connection, stretch.recording.id)?;
         if !own
@@ -295,7 +321,8 @@ impl Corpus {
         }
         let mut all = Vec::with_capacity(addresses.len());
         for address in addresses {
-            let span = drawable(address::stretch(self.store.read(), address)?.span)?;
+            let stretch = address::stretch(self.store.read(), address)?;
+            let span = drawable(self.usable_span(&stretch)?)?;
             let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
             let captions = match options.captions {
                 true => self.captions(&moving.stretch)?,

@@ -18,7 +18,7 @@ use crate::annotate::{
     TierName,
 };
 use crate::db::columns::AnnotationOrigin;
-use crate::db::tiers;
+use crate::db::{recordings, tiers};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::search::{Hit, SearchOptions};
@@ -170,6 +170,7 @@ impl Corpus {
         let mut report = Proposed::default();
         let mut values = Values::new();
         let mut unseen: BTreeSet<String> = BTreeSet::new();
+        let mut still: BTreeSet<String> = BTreeSet::new();
         let total = Some(wanted.len() as u64);
         for (done, (hit, components)) in wanted.values().enumerate() {
             progress.report(Step {
@@ -178,6 +179,11 @@ impl Corpus {
                 total,
                 unit: Unit::Items,
             })?;
+            if let Some(recording) = self.still_take(hit)? {
+                still.insert(recording);
+                report.unread += 1;
+                continue;
+            }
             match self.read(components, hit, &mut unseen, progress) {
                 Ok(Some(read)) => {
                     report.tokens += 1;
@@ -191,12 +197,20 @@ impl Corpus {
                 Ok(None) | Err(_) => report.unread += 1,
             }
         }
-        if !unseen.is_empty() {
-            let names: Vec<&str> = unseen.iter().map(String::as_str).collect();
-            report.findings.push(format!(
-                "handshapes are not proposed where fingers rest throughout, as nobody captured them: {}",
-                names.join(", ")
-            ));
+        for (takes, why) in [
+            (
+                still,
+                "nothing is proposed for takes in which no joint of the body turns",
+            ),
+            (
+                unseen,
+                "handshapes are not proposed where fingers rest throughout, as nobody captured them",
+            ),
+        ] {
+            if !takes.is_empty() {
+                let names: Vec<String> = takes.into_iter().collect();
+                report.findings.push(format!("{why}: {}", names.join(", ")));
+            }
         }
         let (new, changes) = self.changes(values)?;
         report.annotations = changes.len() as u64;
@@ -251,6 +265,20 @@ impl Corpus {
             }
         };
         Ok(found.hits.into_iter().filter(is_in).collect())
+    }
+
+    /// Returns the recording of a token if no joint of its body turns.
+    fn still_take(&self, hit: &Hit) -> Result<Option<String>> {
+        let connection = self.store.read();
+        let Ok(stretch) = crate::address::stretch(connection, &Address::Token(hit.token)) else {
+            return Ok(None);
+        };
+        let recording = stretch.recording;
+        if recordings::body_track(connection, recording.id)?.is_none() {
+            return Ok(None);
+        }
+        let take = crate::hands::usable_take(connection, &self.hands, &recording)?;
+        Ok((!take.bends).then_some(recording.name))
     }
 
     /// Returns the values of components read from a token's movement, for each hand in order of time. A recording whose

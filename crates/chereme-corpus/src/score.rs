@@ -68,7 +68,7 @@ impl Corpus {
 
     /// Returns the movement at an address, which has a captured or made body.
     fn piece(&self, address: &Address) -> Result<Piece> {
-        let moving = self.movement(address)?;
+        let moving = self.usable_movement(address)?;
         let connection = self.store.read();
         let recording = &moving.stretch.recording;
         if recordings::body_track(connection, recording.id)?.is_none() {

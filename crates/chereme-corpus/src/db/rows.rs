@@ -54,6 +54,7 @@ impl RecordingGlance {
             .filter(|_| self.frames > 0)
             .map(|rate| ShownFrames {
                 frames: self.frames,
+                rows: self.frames,
                 rate,
                 offset_us: self.offset_us,
             });
@@ -66,6 +67,8 @@ impl RecordingGlance {
 pub struct ShownFrames {
     /// How many there are.
     pub frames: u64,
+    /// How many frames the track itself has: others, if each has a time of its own.
+    pub rows: u64,
     /// Their rate.
     pub rate: Rate,
     /// The time of the first one on the recording's clock, in microseconds.

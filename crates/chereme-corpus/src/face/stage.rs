@@ -173,6 +173,7 @@ pub(crate) fn shown_alone(connection: &Connection) -> Result<BTreeMap<i64, Shown
         if frames > 0 && frames <= LONGEST as u64 {
             all.entry(row.recording).or_insert(ShownFrames {
                 frames,
+                rows: row.frames,
                 rate,
                 offset_us: row.offset_us,
             });

@@ -327,7 +327,8 @@ fn read_again(
 }
 
 /// Returns unit and axes: the caller's if given, otherwise the file's, with the left side corrected by the body's
-/// joints. A unit that makes the body a giant or a dwarf is corrected by a power of ten.
+/// joints. A unit that makes the body a giant or a dwarf is corrected by a power of ten, and a body that lies or hangs
+/// upside down is righted.
 fn facing(
     options: &ImportOptions,
     scene: &Scene,
@@ -335,10 +336,26 @@ fn facing(
     report: &mut FileReport,
 ) -> Convention {
     let stated = scene.convention;
-    let pose = (scene.clip.frames() > 0).then(|| scene.clip.model_pose(0));
-    let found = anatomy.convention(scene.clip.skeleton(), pose.as_ref());
+    let seen_in = |frame: usize| {
+        let pose = (scene.clip.frames() > frame).then(|| scene.clip.model_pose(frame));
+        anatomy.convention(scene.clip.skeleton(), pose.as_ref())
+    };
+    let found = seen_in(0);
     let axes = found.convention.axes;
-    let agrees = axes.up() == stated.axes.up() && found.axes_confidence >= bvh::SURE;
+    let is_sure = found.axes_confidence >= bvh::SURE;
+    // A take may begin lying, or in a posture of the file's program.
+    let stays = || seen_in(scene.clip.frames() / 2).convention.axes.up() == axes.up();
+    let is_righted = is_sure && axes.up() != stated.axes.up() && stays();
+    let agrees = is_sure && axes.up() == stated.axes.up() || is_righted;
+    if is_righted && options.axes.is_none() {
+        report.findings.push(ReportFinding::warning(
+            format!(
+                "in the axes that the file states ({}) the body lies or hangs upside down; it is righted: {axes} is assumed",
+                stated.axes
+            ),
+            Remedy::choice(Choice::Axes, "say the axes with --axes, such as --axes +Y,+X, if it does so in truth"),
+        ));
+    }
     let metres_per_unit = options.metres_per_unit.unwrap_or_else(|| {
         let stature = anatomy.measures().map(|it| it.stature * stated.metres_per_unit);
         let step = stature.map_or(1.0, scale_of_body);

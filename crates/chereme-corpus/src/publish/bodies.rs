@@ -69,7 +69,7 @@ impl Bodies {
         folder: &mut Folder,
         entry: &Entry,
     ) -> Result<Option<Shown>> {
-        let moving = corpus.movement(&Address::Token(entry.token.id))?;
+        let moving = corpus.usable_movement(&Address::Token(entry.token.id))?;
         let (clip, is_cut) = motion::shown(&moving.clip)?;
         if clip.frames() == 0 {
             return Ok(None);

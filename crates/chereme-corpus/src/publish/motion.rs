@@ -185,7 +185,7 @@ fn hand(clip: &Clip, anatomy: &Anatomy, near: &Camera) -> Value {
         let floor = hips.map(|it| pose.position(it).y as f32 + 0.08);
         for side in Side::BOTH {
             let joints = anatomy.joint(Part::Hand(side)).into_iter();
-            for joint in joints.chain(anatomy.fingers(side)) {
+            for joint in joints.chain(anatomy.possible_fingers(side)) {
                 let at = pose.position(joint).as_vec3();
                 if floor.is_none_or(|floor| at.y > floor) {
                     (low, high) = (low.min(at), high.max(at));

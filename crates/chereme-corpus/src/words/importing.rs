@@ -349,6 +349,14 @@ pub(super) const IMPORTING: &[(&str, &str)] = &[
         "dans l’unité que dit le fichier, le corps mesure {height} m ; ses longueurs sont multipliées par {step}",
     ),
     (
+        "in the axes that the file states ({stated}) the body lies or hangs upside down; it is righted: {axes} is assumed",
+        "selon les axes que dit le fichier ({stated}), le corps est couché ou suspendu la tête en bas ; il est redressé : {axes} est supposé",
+    ),
+    (
+        "say the axes with --axes, such as --axes +Y,+X, if it does so in truth",
+        "donnez les axes avec --axes, comme --axes +Y,+X, si c’est bien le cas",
+    ),
+    (
         "say the unit with --unit, such as --unit cm, if the body is as tall as the file says",
         "donnez l’unité avec --unit, comme --unit cm, si le corps est aussi grand que le dit le fichier",
     ),

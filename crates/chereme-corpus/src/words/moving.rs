@@ -600,6 +600,10 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "les doigts de la main gauche restent au repos dans tout l’enregistrement ; sa configuration n’a donc pas été captée : celle de la notation est supposée",
     ),
     (
+        "nothing is proposed for takes in which no joint of the body turns: {names}",
+        "rien n’est proposé pour les prises où aucune articulation du corps ne tourne : {names}",
+    ),
+    (
         "handshapes are not proposed where fingers rest throughout, as nobody captured them: {names}",
         "les configurations ne sont pas proposées là où les doigts restent au repos, car personne ne les a captées : {names}",
     ),

@@ -383,3 +383,57 @@ fn points_and_curves_are_described_in_a_line() {
         "{lines:?}"
     );
 }
+
+#[test]
+fn a_body_that_lies_or_hangs_in_its_file_is_righted() {
+    use chereme_motion::glam::DQuat;
+    use chereme_motion::{Clip, Part, Skeleton};
+    use std::f64::consts::{FRAC_PI_2, PI};
+
+    let desk = Desk::new();
+    let (clip, anatomy) = crate::built_in_body().expect("a body");
+    let [hips, head] = [Part::Hips, Part::Head].map(|part| anatomy.joint(part).expect("a joint"));
+    for (name, turn, is_odd) in [
+        ("standing", DQuat::IDENTITY, false),
+        ("turned", DQuat::from_rotation_y(FRAC_PI_2), false),
+        ("lying", DQuat::from_rotation_x(-FRAC_PI_2), true),
+        ("hanging", DQuat::from_rotation_z(PI), true),
+    ] {
+        let mut joints = clip.skeleton().joints().to_vec();
+        joints[0].rest = (turn * joints[0].rest).normalize();
+        joints[0].offset = turn * joints[0].offset;
+        let mut channels = clip.clone().into_channels();
+        for rotation in &mut channels[0].rotations {
+            *rotation = (turn * *rotation).normalize();
+        }
+        for place in channels[0].translations.iter_mut().flatten() {
+            *place = turn * *place;
+        }
+        let skeleton = Skeleton::new(joints).expect("a tree").into();
+        let turned = Clip::new(skeleton, clip.rate(), channels).expect("a clip");
+        let glb = gltf::write(&turned, &gltf::About::default()).expect("a GLB");
+        let file = desk.folder.path().join(format!("{name}.glb"));
+        fs::write(&file, glb).expect("written");
+        for axes in [None, Some("+Y,+X".parse().expect("axes"))] {
+            let mut corpus = desk.corpus(&format!("{name}-{}.chereme", axes.is_some()));
+            let options = ImportOptions {
+                axes,
+                ..ImportOptions::default()
+            };
+            let mut hear = unheard;
+            let paths = std::slice::from_ref(&file);
+            let report = corpus.import(paths, &options, &mut Progress::new(&mut hear));
+            let report = report.expect("imported").files.remove(0);
+            let said = report
+                .findings
+                .iter()
+                .any(|it| it.message.contains("is righted"));
+            let moving = corpus.movement(&"recording:1".parse().expect("an address"));
+            let pose = moving.expect("a body").clip.model_pose(0);
+            let up = pose.position(head).y - pose.position(hips).y;
+            let case = format!("{name} {axes:?}: {up} {:?}", report.findings);
+            assert_eq!(said, is_odd && axes.is_none(), "{case}");
+            assert_eq!(up > 0.4, !is_odd || axes.is_none(), "{case}");
+        }
+    }
+}

@@ -279,3 +279,112 @@ fn a_value_that_no_person_wrote_is_refused_with_its_place() {
         assert_eq!(report.findings.iter().any(is_told), !fits);
     }
 }
+
+/// Returns the findings of a report whose messages contain a text, each with a French form.
+fn findings<'a>(report: &'a FileReport, text: &str) -> Vec<&'a ReportFinding> {
+    let found = report
+        .findings
+        .iter()
+        .filter(|it| it.message.contains(text));
+    let found: Vec<&ReportFinding> = found.collect();
+    for finding in &found {
+        let texts = [
+            Some(finding.message.clone()),
+            finding.remedy.as_ref().map(ToString::to_string),
+        ];
+        for text in texts.into_iter().flatten() {
+            let french = crate::words::message(&text, crate::words::Language::French);
+            assert!(french.is_some(), "no French for {text}");
+        }
+    }
+    found
+}
+
+#[test]
+fn a_take_in_which_no_joint_turns_is_a_warning_and_gets_no_proposals() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let capture = changed_capture("chat", &[], |_, number| number.to_owned());
+    let names = capture
+        .lines()
+        .filter_map(|line| line.trim().strip_prefix("JOINT "));
+    let joints: Vec<&str> = names.collect();
+    let still = changed_capture("chat", &joints, |_, _| "1".to_owned());
+    let still = desk.file("still.bvh", &still);
+    let moving = desk.file("moving.bvh", &capture);
+    let tiers = ["still.eaf", "moving.eaf"]
+        .map(|name| desk.file(name, &eaf(&[("Gloss", 300, 900, "CHAT")])));
+    let [a, b] = tiers;
+    let report = take(&mut corpus, &[still, moving, a, b]);
+    let warned = |name: &str| {
+        let report = report
+            .files
+            .iter()
+            .find(|it| it.path.ends_with(name))
+            .expect(name);
+        let found = findings(report, "no joint of the body turns");
+        found.iter().filter(|it| it.severity == "warning").count()
+    };
+    assert_eq!((warned("still.bvh"), warned("moving.bvh")), (1, 0));
+    let options = crate::ProposeOptions {
+        components: crate::Proposed::COMPONENTS.to_vec(),
+        scope: crate::ProposeScope::All,
+    };
+    let mut hear = unheard;
+    let proposed = corpus.propose(&options, &mut Progress::new(&mut hear));
+    let proposed = proposed.expect("proposals");
+    assert_eq!(proposed.recordings, ["moving"], "{proposed:?}");
+    let finding = "nothing is proposed for takes in which no joint of the body turns: still";
+    assert!(
+        proposed.findings.iter().any(|it| it == finding),
+        "{proposed:?}"
+    );
+    assert!(crate::words::message(finding, crate::words::Language::French).is_some());
+}
+
+#[test]
+fn frames_that_are_left_out_are_neither_transcribed_nor_played() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let capture = changed_capture("chat", &[], |_, number| number.to_owned());
+    let frames = frame_count(&capture);
+    // The body leaps away before the last frames.
+    let cut = frames - 20;
+    let leaping = changed_capture("chat", &["Hips"], |frame, number| match frame >= cut {
+        true => (number.parse::<f64>().expect("a number") + 500.0).to_string(),
+        false => number.to_owned(),
+    });
+    let leaping = desk.file("leaping.bvh", &leaping);
+    // From frame 18, at 60 frames a second, to the last one.
+    let tiers = desk.file("leaping.eaf", &eaf(&[("Gloss", 300, 4100, "CHAT")]));
+    let report = take(&mut corpus, &[leaping, tiers]);
+    let found = findings(&report.files[0], "no part of the movement");
+    assert_eq!(found.len(), 1, "{:?}", report.files[0].findings);
+    let address = |text: &str| text.parse::<crate::Address>().expect("an address");
+    let used = corpus
+        .usable_movement(&address("recording:1"))
+        .expect("movement");
+    assert_eq!(used.clip.frames(), cut);
+    let token = corpus
+        .usable_movement(&address("token:1"))
+        .expect("movement")
+        .clip;
+    let last = used.clip.rate().instant(cut);
+    assert_eq!(token.frames(), cut - 18);
+    for named in ["recording:1", "token:1"] {
+        let mut hear = unheard;
+        let read = corpus.transcribe(&address(named), &mut Progress::new(&mut hear));
+        let read = read.expect("a transcription");
+        assert!(read.end_us <= last.micros(), "{named}: {}", read.end_us);
+    }
+}
+
+/// Returns the number of frames of a BVH file.
+fn frame_count(text: &str) -> usize {
+    let count = text
+        .lines()
+        .find_map(|line| line.trim().strip_prefix("Frames:"));
+    count
+        .and_then(|count| count.trim().parse().ok())
+        .expect("a number of frames")
+}
