@@ -14,7 +14,7 @@ const KEPT: usize = 12;
 /// The movement of one recording, as far as it is loaded.
 #[derive(Debug, Default)]
 pub(crate) struct Reel {
-    /// The recording's row id, number of frames, frame rate, offset on the clock, and recipe.
+    /// The recording's row id, number of frames and of its track's rows, frame rate, offset on the clock, and recipe.
     source: Option<Source>,
     /// The piece that was loaded first; all pieces have the same skeleton and anatomy.
     first: Option<Arc<Moving>>,
@@ -26,6 +26,7 @@ pub(crate) struct Reel {
 struct Source {
     recording: i64,
     frames: usize,
+    rows: usize,
     rate: Rate,
     offset: i64,
     recipe: Option<String>,
@@ -39,6 +40,7 @@ impl Reel {
             Some(Source {
                 recording: it.row.id,
                 frames: usize::try_from(shown.frames).ok()?,
+                rows: usize::try_from(shown.rows).ok()?,
                 rate: shown.rate,
                 offset: shown.offset_us,
                 recipe: it.recipe.clone(),
@@ -60,6 +62,15 @@ impl Reel {
     /// Returns the number of frames.
     pub(crate) fn frames(&self) -> usize {
         self.source.as_ref().map_or(0, |source| source.frames)
+    }
+
+    /// Returns the number of the track's frame at a moment, counted from 1, and the number of all its frames.
+    pub(crate) fn frame_number(&self, at: Instant) -> (usize, usize) {
+        let Some(source) = &self.source else {
+            return (0, 0);
+        };
+        let Source { frames, rows, .. } = *source;
+        (source.frame(at) * rows / frames.max(1) + 1, rows)
     }
 
     /// Returns the frame rate.
@@ -203,6 +214,7 @@ mod tests {
         assert!(!reel.has_movement());
         let face = chereme_corpus::ShownFrames {
             frames: 60,
+            rows: 31,
             rate: Rate::new(30, 1).expect("a rate"),
             offset_us: 1_000_000,
         };
@@ -211,6 +223,11 @@ mod tests {
             ..glance(0)
         }));
         assert!(reel.has_movement(), "a face alone is shown, too");
+        let number = |at| reel.frame_number(Instant::from_micros(at));
+        assert_eq!(
+            [0, 2_000_000, 9_000_000].map(number),
+            [(1, 31), (16, 31), (31, 31)]
+        );
         assert_eq!(piece(&mut reel, 0), Some((0, span(1_000_000, 3_000_000))));
     }
 

@@ -54,9 +54,11 @@ pub(super) fn show(
             let text = match movement_end(seen).filter(|end| player.playhead() >= *end) {
                 Some(end) => fill(seen.say(words::NO_MORE), &[("time", &time_text(end))]),
                 None => {
-                    let moving = movement_end(seen).map(|end| Span::between(Instant::ZERO, end));
-                    let whole = moving.unwrap_or(player.whole);
-                    let (frame, frames) = frames(player.playhead(), whole, rate);
+                    let (at, made) = (player.playhead(), seen.shown.made.as_ref());
+                    let (frame, frames) = match made.map(|it| it.made.clip.frames()) {
+                        Some(frames) => ((rate.frame_at(at) + 1).min(frames), frames),
+                        None => seen.reel.frame_number(at),
+                    };
                     let values: [(&str, &dyn std::fmt::Display); 2] =
                         [("n", &frame), ("all", &frames)];
                     fill(seen.say(words::FRAME_OF), &values)
@@ -98,12 +100,6 @@ fn movement_end(seen: &PaneInput<'_>) -> Option<Instant> {
     let whole = seen.shown.player.whole.end();
     let frame = (1e6 / rate.per_second()) as i64;
     (frames > 0 && end.shifted(2 * frame) < whole).then_some(end)
-}
-
-/// Returns the number of the frame at the playhead, counted from 1, and the number of frames.
-fn frames(at: Instant, whole: Span, rate: Rate) -> (usize, usize) {
-    let all = rate.frames_in(whole).len().max(1);
-    ((rate.frame_at(at) + 1).min(all), all)
 }
 
 /// Returns the annotations that are distinguishable on a bar of that many pixels, as shares of its width.
@@ -383,16 +379,5 @@ mod tests {
         let many = ticks(&starts, &ends, whole, 300.0);
         assert!((290..=301).contains(&many.len()), "{}", many.len());
         assert!(ticks(&[], &[], whole, 300.0).is_empty());
-    }
-
-    #[test]
-    fn frames_are_counted_from_one_to_all() {
-        let rate = Rate::new(60, 1).expect("a rate");
-        let whole = Span::between(Instant::ZERO, Instant::from_micros(2_600_000));
-        assert_eq!(frames(Instant::ZERO, whole, rate), (1, 156));
-        assert_eq!(
-            frames(Instant::from_micros(2_599_999), whole, rate),
-            (156, 156)
-        );
     }
 }
