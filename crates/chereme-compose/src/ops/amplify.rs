@@ -162,7 +162,7 @@ pub(crate) fn scale(work: &mut Work, sides: &[Side], factor: f64) -> Result<Reac
     }
     let slides = blended(&slides, blend);
     let shares = paths.shares(&stroke);
-    place::wrists(work, sides, Solver::Analytic, |side, frame, at| {
+    place::wrists(work, sides, Solver::Analytic, &stroke, |side, frame, at| {
         let hand = usize::from(side == Side::Left);
         let own = (factor - 1.0) * paths.0[hand][frame];
         let relation = (1.0 - factor) * mean - slides[frame];

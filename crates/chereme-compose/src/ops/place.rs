@@ -140,16 +140,16 @@ impl Syntax for Place {
                 "la main {side} est déplacée : {way}",
             ),
             Text::new(
+                "the rest before {start} and after {end} stays as it is",
+                "le repos avant {start} et après {end} reste tel quel",
+            ),
+            Text::new(
                 "the rest before {time} stays as it is",
                 "le repos avant {time} reste tel quel",
             ),
             Text::new(
                 "the rest after {time} stays as it is",
                 "le repos après {time} reste tel quel",
-            ),
-            Text::new(
-                "the rest before {start} and after {end} stays as it is",
-                "le repos avant {start} et après {end} reste tel quel",
             ),
             Text::new(
                 "the right hand is kept out of head and trunk: moved by up to {rest}",
@@ -421,6 +421,7 @@ struct PlacementPlan<'a> {
     settings: &'a Place,
     input: Option<&'a PlaceInput>,
     frame: Frame,
+    stroke: SignStroke,
 }
 
 impl<'a> PlacementPlan<'a> {
@@ -437,7 +438,7 @@ impl<'a> PlacementPlan<'a> {
                 return Ok(HandShift {
                     sides,
                     by: frame.sum(legs),
-                    frames: SignStroke::of_work(work)?.frames,
+                    frames: self.stroke.frames.clone(),
                     spot: None,
                 });
             }
@@ -448,7 +449,7 @@ impl<'a> PlacementPlan<'a> {
             (_, Some(input)) => spatial(work, frame, input, sides[0])?,
             (_, None) => return Err(Cause::Input),
         };
-        let anchor = anchor(work, sides, self.settings.with)?;
+        let anchor = anchor(work, &self.stroke, sides, self.settings.with);
         let now = anchor.at(work, sides).ok_or(Cause::NoArm(sides[0]))?;
         did.extend(anchor.describe(work));
         Ok(HandShift {
@@ -495,6 +496,7 @@ fn place(
         settings,
         input,
         frame,
+        stroke: SignStroke::of_work(work)?,
     };
     for together in sides.chunks(if apart { 1 } else { sides.len() }) {
         shifts.push(placing.shift(work, together, &mut notes)?);
@@ -504,8 +506,9 @@ fn place(
         .and_then(|input| input.value.clone())
         .filter(|_| !near);
     let before = work.clone();
-    let rest = SignStroke::of_work(work)?.describe_rests(work);
-    let mut reach = wrists(work, sides, settings.solver, |side, _, at| {
+    let (stroke, solver) = (&placing.stroke, settings.solver);
+    let rest = stroke.describe_rests(work);
+    let mut reach = wrists(work, sides, solver, stroke, |side, _, at| {
         let own = shifts.iter().find(|shift| shift.sides.contains(&side));
         at + own.map_or(DVec3::ZERO, |shift| shift.by)
     })?;
@@ -607,13 +610,13 @@ pub(crate) fn wrists(
     work: &mut Work,
     sides: &[Side],
     solver: Solver,
+    stroke: &SignStroke,
     target: impl Fn(Side, usize, DVec3) -> DVec3,
 ) -> Result<Reach, Cause> {
     let mut worst = Reach::default();
     let hand = |side: Side| work.anatomy.arm(side).map(|arm| arm.hand);
     let hands: Vec<Option<usize>> = sides.iter().map(|&side| hand(side)).collect();
     let columns = Columns::of(work, hands.iter().flatten().copied());
-    let stroke = SignStroke::of_work(work)?;
     for (&side, hand) in sides.iter().zip(hands) {
         let hand = hand.ok_or(Cause::NoArm(side))?;
         let at = columns.positions(hand).iter().enumerate();

@@ -365,7 +365,7 @@ pub(crate) fn travel(
         }
     };
     let before = work.clone();
-    let reach = place::wrists(work, sides, Solver::Analytic, |_, frame, at| {
+    let reach = place::wrists(work, sides, Solver::Analytic, &stroke, |_, frame, at| {
         at + displacements[frame]
     })?;
     let still = sides.iter().all(|&side| is_still(&before, side, &stroke));

@@ -52,8 +52,10 @@ fn inverse_operators_restore_each_movement() {
                 drop(mirror::swap(work).expect("two arms"))
             }),
             ("place", |work, sign, by, solver| {
-                let reach = place::wrists(work, &Side::BOTH, solver, |_, _, at| at + by * sign);
-                let reach = reach.expect("two arms");
+                let stroke = crate::stroke::SignStroke::of_work(work).expect("a clip");
+                let by = by * sign;
+                let moved = place::wrists(work, &Side::BOTH, solver, &stroke, |_, _, at| at + by);
+                let reach = moved.expect("two arms");
                 assert!(reach.residual < 1e-9 && reach.helped == 0);
             }),
         ];

@@ -8,7 +8,6 @@ use chereme_sign::Component;
 
 use crate::body;
 use crate::contact::{self, Touch};
-use crate::error::Cause;
 use crate::ops::say;
 use crate::outcome::About;
 use crate::recipe::HandPoint;
@@ -28,28 +27,29 @@ pub(super) struct Anchor {
 /// span, else the span, else the stroke.
 pub(super) fn anchor(
     work: &Work,
+    stroke: &SignStroke,
     sides: &[Side],
     with: Option<HandPoint>,
-) -> Result<Anchor, Cause> {
-    let whole = SignStroke::of_work(work)?.frames;
+) -> Anchor {
+    let whole = stroke.frames.clone();
     let point = with.unwrap_or(HandPoint::Palm);
     let [side] = *sides else {
         let spans = sides.iter().filter_map(|&side| body::placed(work, side));
         let frames = spans.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
-        return Ok(Anchor {
+        return Anchor {
             point,
             frames: frames.unwrap_or(whole),
             touch: None,
-        });
+        };
     };
     let placed = body::placed(work, side);
     let within = placed.clone().unwrap_or(whole.clone());
     if let Some(touch) = contact::touches(work).with_body(side, &within) {
-        return Ok(Anchor {
+        return Anchor {
             point: with.unwrap_or(touch.point),
             frames: touch.frame..touch.frame + 1,
             touch: Some(touch),
-        });
+        };
     }
     let about = About::Component(Component::Movement, Some("phase".to_owned()));
     let strokes = work.notes.iter().filter(|note| {
@@ -62,11 +62,11 @@ pub(super) fn anchor(
         (!frames.is_empty()).then_some(frames)
     });
     let stroke = strokes.reduce(|a, b| a.start.min(b.start)..a.end.max(b.end));
-    Ok(Anchor {
+    Anchor {
         point,
         frames: placed.or(stroke).unwrap_or(whole),
         touch: None,
-    })
+    }
 }
 
 impl Anchor {
