@@ -190,7 +190,7 @@ impl LearnedProfile {
     /// Returns the course of the fingers, or the arms' if it is missing.
     #[must_use]
     pub fn of_fingers(&self) -> Option<&LearnedCourse> {
-        self.fingers.as_ref().or(self.arms.as_ref())
+        self.fingers.as_ref().or_else(|| self.of_arms())
     }
 }
 
