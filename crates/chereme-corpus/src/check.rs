@@ -45,6 +45,13 @@ pub struct CheckReport {
     pub mended: Vec<String>,
 }
 
+impl CheckReport {
+    /// Returns the damage, then the questions.
+    pub fn findings(&self) -> impl Iterator<Item = &Fault> {
+        self.faults.iter().chain(&self.questions)
+    }
+}
+
 /// A fault in a corpus.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Fault {

@@ -36,7 +36,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     let report = corpus.check(args.mend, &mut Progress::new(&mut hear))?;
     drop(bar);
     let questions = report.questions.len() as u64;
-    for fault in report.faults.iter().chain(&report.questions) {
+    for fault in report.findings() {
         output.line(format!(
             "{}: {}: {}",
             fault.kind,

@@ -133,6 +133,10 @@ fn a_changed_cell_of_any_table_is_found() {
             .prepare("SELECT name FROM pragma_table_info(?1) WHERE pk = 0 AND name <> 'uid'")
             .and_then(|mut it| it.query_map([table], |row| row.get(0))?.collect())
             .expect("columns");
+        let key = match table {
+            "changeset" => "operation_id",
+            _ => "rowid",
+        };
         for column in columns {
             // The last bit of a number, the last letter of a text, the last byte of a blob.
             let damage = format!(
@@ -140,9 +144,10 @@ fn a_changed_cell_of_any_table_is_found() {
                      WHEN 'integer' THEN {column} + 1 WHEN 'real' THEN {column} * 1.000001
                      WHEN 'text' THEN substr({column}, 1, length({column}) - 1) || '~'
                      ELSE CAST(substr({column}, 1, length({column}) - 1) || x'7e' AS BLOB) END
-                 WHERE rowid = (SELECT max(rowid) FROM {table} WHERE {column} IS NOT NULL)"
+                 WHERE {key} = (SELECT max({key}) FROM {table} WHERE {column} IS NOT NULL)"
             );
             foreign.execute_batch("BEGIN").expect("begun");
+            // A rule of the table, such as a unique name, may refuse the change.
             let changed = foreign.execute(&damage, []).unwrap_or_default();
             let broken = seals::broken_seals(&foreign, table).expect("read");
             foreign.execute_batch("ROLLBACK").expect("rolled back");
@@ -173,6 +178,31 @@ fn seals_follow_edits_undo_and_redo_and_damage_stays_visible_beside_them() {
     corpus.redo().expect("redone");
     assert_eq!(checked(&mut corpus, false).faults, []);
     let foreign = Connection::open(&path).expect("opened");
+    let flip = || {
+        let sql = "SELECT operation_id, data FROM changeset";
+        let all: Vec<(i64, Vec<u8>)> = foreign
+            .prepare(sql)
+            .and_then(|mut it| {
+                it.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+                    .collect()
+            })
+            .expect("read");
+        for (row, mut data) in all {
+            let middle = data.len() / 2;
+            data[middle] ^= 1;
+            foreign
+                .execute(
+                    "UPDATE changeset SET data = ?2 WHERE operation_id = ?1",
+                    rusqlite::params![row, data],
+                )
+                .expect("damaged");
+        }
+    };
+    flip();
+    let refused = corpus.undo().expect_err("damaged").to_string();
+    assert!(refused.contains("of changeset is damaged"), "{refused}");
+    flip();
+    assert_eq!(checked(&mut corpus, false).faults, []);
     let damage =
         "UPDATE annotation SET value = 'DAMAGED' WHERE id = (SELECT max(id) FROM annotation)";
     foreign.execute_batch(damage).expect("damaged");

@@ -15,7 +15,7 @@ use serde::Serialize;
 use serde_json::Value;
 
 use super::damaged;
-use super::seals::SealChanges;
+use super::seals::{self, SealChanges};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use tracked::{TRACKED, columns, from_image, row_image};
@@ -240,6 +240,7 @@ fn invert(
         [target],
         |row| Ok((row.get(0)?, row.get(1)?)),
     )?;
+    seals::verify_changeset(connection, source)?;
     connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
     let parts: i64 = connection.query_row(
         "SELECT count(*) FROM changeset WHERE operation_id = ?1",

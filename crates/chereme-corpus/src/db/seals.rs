@@ -345,6 +345,12 @@ pub(crate) fn verify_tokens(connection: &Connection, tokens: &[i64]) -> Result<(
     verify_scope(connection, &OF_TOKENS, tokens)
 }
 
+/// Fails if the changeset of an operation is not as it was stored.
+pub(super) fn verify_changeset(connection: &Connection, operation: i64) -> Result<()> {
+    let itself = [(CHANGESET, "SELECT value AS id FROM json_each(?1)")];
+    verify_scope(connection, &itself, &[operation])
+}
+
 /// Fails at the first row of these tables that does not have its seal.
 pub(crate) fn verify_tables(
     connection: &Connection,

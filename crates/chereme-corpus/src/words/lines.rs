@@ -214,6 +214,13 @@ pub(super) const LINES: &[(&str, &str)] = &[
     ("changeset {operation}", "jeu de modifications {operation}"),
     ("row {row} of {table}", "ligne {row} de {table}"),
     (
+        "one of the rows {first} to {last} of {table}",
+        "une des lignes {first} à {last} de {table}",
+    ),
+    ("a row of meta", "une ligne de meta"),
+    ("the stored file {name}", "le fichier enregistré {name}"),
+    ("the study {name}", "l’étude {name}"),
+    (
         "it breaks a rule of its table: {rule}",
         "elle enfreint une règle de sa table : {rule}",
     ),

@@ -284,7 +284,7 @@ impl Notices {
         if let (false, Some(notice)) = (report.ok, self.all.last_mut()) {
             notice.kind = NoticeKind::Error;
         }
-        let faults = report.faults.iter().chain(&report.questions);
+        let faults = report.findings();
         let said = |text: &String| spoken(text, language);
         let faults = faults.map(|it| {
             let message = said(&it.message);
