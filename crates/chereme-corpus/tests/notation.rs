@@ -277,7 +277,9 @@ fn symbols_are_exported_however_their_notation_is_stored() {
     let names = "hamflathand hamextfingeru hampalmd";
     let tabs = names.replace(' ', "\t");
     desk.import("own.hns", &format!("A\t{names}\nB\t{tabs}\n"));
-    let made = desk.corpus.animate(&[names], &Staging::default(), Some("C"));
+    let made = desk
+        .corpus
+        .animate(&[names], &Staging::default(), Some("C"));
     made.expect("stored");
     let (symbols, notes) = desk.export(&ExportWhat::All, "all.hsigml");
     assert!(notes.is_empty(), "{notes:?}");

@@ -165,7 +165,8 @@ fn misspelt_begin(line: &str, known: usize) -> usize {
         let start = before.rfind(parting).map_or(0, |at| {
             at + before[at..].chars().next().map_or(1, char::len_utf8)
         });
-        let is_gloss = between_columns(&line[before.len()..first]) && !between_columns(&line[..start]);
+        let is_gloss =
+            between_columns(&line[before.len()..first]) && !between_columns(&line[..start]);
         if is_gloss || !is_misspelt(&before[start..]) {
             return first;
         }
@@ -522,7 +523,7 @@ mod tests {
         for (line, gloss, odd) in cases {
             let (entries, findings) = read(line.as_bytes()).expect(line);
             assert_eq!(entries[0].sign.gloss, gloss, "{line}");
-            let unread = |it: &&Finding| it.message.starts_with("symbol ");
+            let unread = |finding: &&Finding| finding.message.starts_with("symbol ");
             let unread: Vec<_> = findings.iter().filter(unread).collect();
             assert_eq!(unread.len(), odd, "{line}: {findings:?}");
             if odd > 0 {

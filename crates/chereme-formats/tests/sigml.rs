@@ -2,8 +2,8 @@
 
 use chereme_formats::sigml::{self, Error};
 use chereme_sign::hamnosys::{
-    Act, Bend, Contact, HandsUsed, Manual, MotionKind, NonmanualPart, Place, ThumbPosition,
-    TierKind, TierStart,
+    Act, Bend, Contact, HandsUsed, Manual, MotionKind, NonmanualPart, Notated, Place,
+    ThumbPosition, TierKind, TierStart,
 };
 
 fn document(manual: &str) -> String {

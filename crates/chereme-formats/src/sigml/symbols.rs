@@ -4,8 +4,9 @@ use super::node::Node;
 use super::raw::{Element, shown};
 use crate::finding::Finding;
 use crate::tally::Findings;
-use chereme_sign::hamnosys::{Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient,
-    spelled_symbols};
+use chereme_sign::hamnosys::{
+    Act, Nonmanual, NonmanualPart, Notated, Sign, Symbol, parse_lenient, spelled_symbols,
+};
 use chereme_sign::text::nearest;
 
 /// The elements of face and body.
