@@ -228,6 +228,10 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     let read = corpus.cue_slips(&sentence(3), None, true, &options)?;
     assert_eq!(read.produced_by, "recognised");
     assert!(read.right * 10 > read.predicted * 6, "{read:?}");
+    // The keys of another text are compared with those that are recognised.
+    let other = corpus.cue_slips(&sentence(3), Some("papa"), true, &options)?;
+    assert_eq!((other.predicted, other.produced), (2, read.produced));
+    assert!(other.right <= 2 && other.slips.len() as u64 >= read.produced - 2);
     Ok(())
 }
 

@@ -254,6 +254,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                     "warning: the recognisers were tested on the keys from which they learned",
                 )?;
             }
+            for finding in &found.findings {
+                output.warn(finding)?;
+            }
             confusion("shapes", &found.shapes, output)?;
             confusion("placements", &found.placements, output)?;
             output.document(found)

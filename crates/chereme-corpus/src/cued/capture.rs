@@ -457,7 +457,7 @@ pub(super) fn cued(
 /// Returns the keys of a take in its own time: those of its tier of keys, otherwise those that its phones predict.
 pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Result<Vec<Key>> {
     let phones = phones(connection, take.row.id, code)?;
-    let own = tier(connection, take.row.id, |name| name == CueTier::Keys.name())?;
+    let own = key_tier(connection, &take.row, code)?;
     let seconds = |micros: i64| micros as f64 / 1e6 - take.offset;
     if let Some(own) = own.filter(|own| !own.is_empty()) {
         let starts: Vec<i64> = phones
@@ -466,9 +466,8 @@ pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Resu
             .filter_map(|phone| phone.span)
             .map(|span| span.start().micros())
             .collect();
-        let keys = own.iter().filter_map(|row| {
-            let (placement, shape) = cue::of_gloss(&row.value)?;
-            let placement = u8::try_from(cue::placement_number(placement)).ok()?;
+        let keys = own.iter().map(|key| {
+            let (row, shape) = (&key.row, key.shape);
             let first = starts.partition_point(|start| *start < row.start_us);
             let within: Vec<i64> = starts[first..]
                 .iter()
@@ -477,19 +476,23 @@ pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Resu
                 .collect();
             let (kind, a2) = match within.as_slice() {
                 [_, vowel, ..] => (KeySounds::Pair, *vowel),
-                _ if shape == code.vowel_alone && placement_is_of_vowel(code, &row.value) => {
+                // A single vowel at the placement of consonants is ambiguous; at another placement it is a vowel.
+                _ if shape == code.vowel_alone
+                    && usize::from(key.placement)
+                        != cue::placement_number(&code.consonant_alone) =>
+                {
                     (KeySounds::Vowel, row.start_us)
                 }
                 _ => (KeySounds::Consonant, row.end_us),
             };
-            Some(Key {
+            Key {
                 kind,
-                placement,
+                placement: key.placement,
                 shape,
                 a1: seconds(row.start_us),
                 a2: seconds(a2),
                 a3: seconds(row.end_us),
-            })
+            }
         });
         return Ok(keys.collect());
     }
@@ -500,10 +503,56 @@ pub(super) fn keys(connection: &Connection, take: &Take, code: &CueCode) -> Resu
     Ok(predicted(&read, take.offset))
 }
 
-/// Returns whether the placement of a key is that of its vowel. A single vowel at the placement of consonants is
-/// ambiguous; at another placement it is a vowel.
-fn placement_is_of_vowel(code: &CueCode, gloss: &str) -> bool {
-    cue::of_gloss(gloss).is_some_and(|(placement, _)| placement != code.consonant_alone)
+/// A key that a tier gives.
+pub(crate) struct TierKey {
+    /// The number of its placement.
+    pub(crate) placement: u8,
+    pub(crate) shape: u8,
+    pub(crate) row: AnnotationRow,
+}
+
+/// Returns the keys of a recording's tier of keys; labels that mean silence are none.
+///
+/// # Errors
+/// Fails at the first label that is no key.
+pub(crate) fn key_tier(
+    connection: &Connection,
+    recording: &RecordingRow,
+    code: &CueCode,
+) -> Result<Option<Vec<TierKey>>> {
+    let rows = tier(connection, recording.id, |name| {
+        name == CueTier::Keys.name()
+    })?;
+    let key = |row: AnnotationRow| {
+        let known = cue::key_of_label(&row.value).and_then(|(placement, shape)| {
+            Some((u8::try_from(cue::placement_number(placement)).ok()?, shape))
+        });
+        let Some((placement, shape)) = known else {
+            return Err(
+                Error::wrong(format!("{:?} on the tier Keys is no key", row.value))
+                    .at(format!(
+                        "{}, {:.3} s",
+                        recording.name,
+                        row.start_us as f64 / 1e6
+                    ))
+                    .advise(
+                        "write keys as mouth-4, 4-m or 24; silence is an empty annotation or #",
+                    ),
+            );
+        };
+        Ok(TierKey {
+            placement,
+            shape,
+            row,
+        })
+    };
+    let rows = rows.map(|rows| {
+        let spoken = rows
+            .into_iter()
+            .filter(|row| !code.is_pause(row.value.trim()));
+        spoken.map(key).collect()
+    });
+    rows.transpose()
 }
 
 /// Returns the keys of an utterance whose times are known.

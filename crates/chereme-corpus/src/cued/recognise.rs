@@ -28,6 +28,8 @@ pub struct CueRecognition {
     pub misread: Vec<Misread>,
     /// Takes without enough frames for their keys.
     pub left_out: Vec<String>,
+    /// What hidden markers cost.
+    pub findings: Vec<String>,
 }
 
 /// Confusion table: how often each class was recognised as each.
@@ -139,6 +141,16 @@ impl Corpus {
                 )),
             );
         }
+        let keys: usize = shown.iter().map(Vec::len).sum();
+        let unread = [&shapes, &placements].map(|read| keys - read.len().min(keys));
+        let mut findings = Vec::new();
+        if unread != [0, 0] {
+            findings.push(format!(
+                "markers are hidden at the targets: {} of {keys} shapes and {} placements are not read and count in no rate; \
+                 chereme cued CORPUS restore restores the markers",
+                unread[0], unread[1]
+            ));
+        }
         let (mut misread, mut left_out) = (Vec::new(), Vec::new());
         for (own, shown) in tested.iter().zip(&shown) {
             if shown.is_empty() {
@@ -167,6 +179,7 @@ impl Corpus {
             }),
             misread,
             left_out,
+            findings,
         })
     }
 }

@@ -1,12 +1,11 @@
 //! Comparison of produced and predicted keys of a take: insertions, deletions, and substitutions of shape or placement.
 
 use chereme_analysis::cue::session::Key;
-use chereme_compose::CueTier;
 use chereme_sign::Remedy;
 use chereme_sign::cue::{self, Phone, Utterance, UtteranceError};
 use serde::Serialize;
 
-use super::capture::{cued, phones, predicted, take, tier};
+use super::capture::{cued, key_tier, phones, predicted, take};
 use super::recognise::learned;
 use super::{CuedOptions, key_name};
 use crate::Corpus;
@@ -83,10 +82,11 @@ impl Corpus {
     /// Compares the keys that a take shows with those that its phones, or a text, predict.
     ///
     /// Produced keys are those of its tier of keys. Without one, or with `recognised`, they are those that the
-    /// recognisers read at the targets of the predicted keys, which finds only substitutions.
+    /// recognisers read at the targets of the keys of its phones: of these keys themselves only substitutions are found,
+    /// of the keys of a text all slips.
     ///
     /// # Errors
-    /// Fails if there is no such recording, neither phones nor a text predict keys, or no keys can be read.
+    /// Fails if there is no such recording, neither phones nor a text predict keys, or a key cannot be read.
     pub fn cue_slips(
         &self,
         recording: &Name,
@@ -127,8 +127,10 @@ impl Corpus {
                 )
             }
         };
-        let own = tier(connection, row.id, |tier| tier == CueTier::Keys.name())?;
-        let annotated = own.filter(|rows| !recognised && !rows.is_empty());
+        let annotated = match recognised {
+            true => None,
+            false => key_tier(connection, &row, &code)?.filter(|keys| !keys.is_empty()),
+        };
         let mut report = CueSlips {
             recording: name.clone(),
             produced_by: "tier",
@@ -138,23 +140,18 @@ impl Corpus {
             right: 0,
             slips: Vec::new(),
         };
-        if let Some(rows) = annotated {
-            let produced: Vec<Produced> = rows
-                .iter()
-                .filter_map(|row| {
-                    let (placement, shape) = cue::of_gloss(&row.value)?;
-                    let placement = u8::try_from(cue::placement_number(placement)).ok()?;
-                    Some((placement, shape, row.start_us))
-                })
-                .collect();
-            if produced.len() > MOST || expected.len() > MOST {
-                return Err(Error::wrong(format!(
-                    "{} keys are too many to compare",
-                    produced.len()
-                ))
-                .at(name)
-                .advise("cut the recording into shorter takes"));
-            }
+        let comparable = |produced: Vec<Produced>| match produced.len().max(expected.len()) {
+            0..=MOST => Ok(produced),
+            count => Err(
+                Error::wrong(format!("{count} keys are too many to compare"))
+                    .at(name.clone())
+                    .advise("cut the recording into shorter takes"),
+            ),
+        };
+        if let Some(keys) = annotated {
+            let shown = keys.iter().filter(|key| key.placement > 0);
+            let produced = shown.map(|key| (key.placement, key.shape, key.row.start_us));
+            let produced = comparable(produced.collect())?;
             report.produced = produced.len() as u64;
             (report.right, report.slips) = compared(&expected, &produced);
             return Ok(report);
@@ -174,20 +171,20 @@ impl Corpus {
                     .advise("import an alignment with a tier called Phones"),
             );
         };
-        report.predicted = own.keys.len() as u64;
-        report.produced = shown.len() as u64;
-        for (key, shown) in own.keys.iter().zip(shown) {
-            let (place, shape) = (shown.hand.recognised, shown.fingers.recognised);
-            match kind((key.placement, key.shape), (place, shape)) {
-                None => report.right += 1,
-                Some(kind) => report.slips.push(CueSlip {
-                    kind,
-                    at_us: Some(own.take.micros(shown.hand.frame as f64 / own.take.rate)),
-                    predicted: Some(key_name(key.placement, key.shape)),
-                    produced: Some(key_name(place, shape)),
-                }),
-            }
-        }
+        let produced = shown.iter().map(|shown| {
+            let at = own.take.micros(shown.hand.frame as f64 / own.take.rate);
+            (shown.hand.recognised, shown.fingers.recognised, at)
+        });
+        let produced = comparable(produced.collect())?;
+        report.produced = produced.len() as u64;
+        // Keys that were looked for at the predicted ones answer them one by one.
+        let looked_for = own.keys.iter().map(|key| (key.placement, key.shape));
+        let is_paired =
+            produced.len() == expected.len() && looked_for.eq(expected.iter().map(Expected::key));
+        (report.right, report.slips) = match is_paired {
+            true => paired(&expected, &produced),
+            false => compared(&expected, &produced),
+        };
         Ok(report)
     }
 }
@@ -207,6 +204,29 @@ impl Expected {
             at: Some((key.a1 * 1e6).round() as i64),
         }
     }
+
+    fn key(&self) -> (u8, u8) {
+        (self.placement, self.shape)
+    }
+}
+
+/// Compares each predicted key with the produced one of the same number.
+fn paired(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>) {
+    let pairs = expected.iter().zip(produced);
+    let slips: Vec<CueSlip> = pairs
+        .filter_map(|(own, other)| substitution(own, *other))
+        .collect();
+    ((expected.len() - slips.len()) as u64, slips)
+}
+
+/// Returns the slip between a predicted and a produced key; `None` if they are equal.
+fn substitution(own: &Expected, other: Produced) -> Option<CueSlip> {
+    Some(CueSlip {
+        kind: kind(own.key(), (other.0, other.1))?,
+        at_us: Some(other.2),
+        predicted: Some(key_name(own.placement, own.shape)),
+        produced: Some(key_name(other.0, other.1)),
+    })
 }
 
 fn untimed(read: &Utterance) -> Vec<Expected> {
@@ -262,15 +282,9 @@ fn compared(expected: &[Expected], produced: &[Produced]) -> (u64, Vec<CueSlip>)
         let near = |value: f32| (here - value).abs() < 1e-4;
         if i > 0 && j > 0 && near(costs[(i - 1) * width + j - 1] + differs(i - 1, j - 1)) {
             (i, j) = (i - 1, j - 1);
-            let (own, other) = (&expected[i], produced[j]);
-            match kind((own.placement, own.shape), (other.0, other.1)) {
+            match substitution(&expected[i], produced[j]) {
                 None => right += 1,
-                Some(kind) => slips.push(CueSlip {
-                    kind,
-                    at_us: Some(other.2),
-                    predicted: Some(key_name(own.placement, own.shape)),
-                    produced: Some(key_name(other.0, other.1)),
-                }),
+                Some(slip) => slips.push(slip),
             }
         } else if i > 0 && near(costs[(i - 1) * width + j] + GAP) {
             i -= 1;
@@ -338,6 +352,54 @@ mod tests {
         );
         assert_eq!(compared(&[], &[]), (0, Vec::new()));
         assert_eq!(compared(&expected, &[]).1.len(), 6);
+    }
+
+    /// Returns the slips of a recording against the text "papa": one second of the given keys on a tier.
+    fn against_papa(keys: [&str; 3]) -> Result<CueSlips> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("take.TextGrid");
+        let intervals = keys.iter().enumerate();
+        let intervals = intervals.map(|(n, key)| format!("{n}\n{}\n\"{key}\"\n", n + 1));
+        let intervals: String = intervals.collect();
+        let text = format!(
+            "File type = \"ooTextFile\"\nObject class = \"TextGrid\"\n\n0\n3\n<exists>\n1\n\"IntervalTier\"\n\"Keys\"\n0\n3\n3\n{intervals}"
+        );
+        std::fs::write(&path, text).expect("written");
+        let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
+        let mut hear = crate::unheard;
+        let mut progress = crate::Progress::new(&mut hear);
+        let done = corpus.import(&[path], &crate::ImportOptions::default(), &mut progress);
+        done.expect("taken in");
+        let take = Name::Text("take".to_owned());
+        corpus.cue_slips(&take, Some("papa"), false, &CuedOptions::default())
+    }
+
+    #[test]
+    fn keys_of_a_tier_are_read_in_each_notation_and_no_key_is_an_error() {
+        for keys in [
+            ["cue:side-1", "", "cue:side-1"],
+            ["side-1", "#", "side-1"],
+            ["1-s", "", "1-s"],
+            ["11", "00", "11"],
+        ] {
+            let slips = against_papa(keys).expect("keys");
+            assert_eq!(
+                (slips.right, slips.produced, slips.slips.len()),
+                (2, 2, 0),
+                "{keys:?}"
+            );
+        }
+        let slips = against_papa(["24", "1-s", "chin-1"]).expect("keys");
+        assert_eq!((slips.right, slips.produced), (1, 3));
+        for keys in [["pa", "pa", ""], ["11", "pa", "x"]] {
+            let error = against_papa(keys).expect_err("no keys");
+            assert!(
+                error
+                    .to_string()
+                    .contains("\"pa\" on the tier Keys is no key"),
+                "{error}"
+            );
+        }
     }
 
     #[test]

@@ -86,8 +86,11 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
         let gestures = named(connection, row.id, CueTier::Hand.name())?;
         let mut gestures = gestures.as_slice();
         for key in &keys {
-            let own = key.value.trim_start_matches("cue:");
-            let Some(gesture) = next_to(&mut gestures, own) else {
+            let Some((placement, shape)) = cue::key_of_label(&key.value) else {
+                continue;
+            };
+            let own = format!("{placement}-{shape}");
+            let Some(gesture) = next_to(&mut gestures, &own) else {
                 continue;
             };
             let first = phones.partition_point(|phone| phone.start_us < key.start_us);
@@ -96,12 +99,12 @@ pub(crate) fn measured(connection: &Connection) -> Result<Option<CuePhases>> {
                 .take_while(|phone| phone.start_us < key.end_us)
                 .collect();
             let phase = (gesture.end_us - key.start_us) as f64 / 1e6;
-            match (sounds.len(), cue::of_gloss(&key.value)) {
+            match (sounds.len(), shape) {
                 (2.., _) => {
                     let consonant = (sounds[1].start_us - key.start_us) as f64 / 1e6;
                     found[0].push(phase / consonant.max(1e-3));
                 }
-                (_, Some((_, VOWEL))) => found[1].push(phase),
+                (_, VOWEL) => found[1].push(phase),
                 _ => found[2].push(phase),
             }
         }

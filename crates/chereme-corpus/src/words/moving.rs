@@ -166,6 +166,18 @@ pub(super) const MOVING: &[(&str, &str)] = &[
         "restaurez d’abord les marqueurs cachés : chereme cued CORPUS restore",
     ),
     (
+        "markers are hidden at the targets: {a} of {keys} shapes and {b} placements are not read and count in no rate; chereme cued CORPUS restore restores the markers",
+        "des marqueurs sont cachés aux cibles : {a} formes sur {keys} et {b} emplacements ne sont pas lus et ne comptent dans aucun taux ; chereme cued CORPUS restore restaure les marqueurs",
+    ),
+    (
+        "{key} on the tier Keys is no key",
+        "{key} sur l’acteur Keys n’est pas une clé",
+    ),
+    (
+        "write keys as mouth-4, 4-m or 24; silence is an empty annotation or #",
+        "écrivez les clés comme mouth-4, 4-m ou 24 ; un silence est une annotation vide ou #",
+    ),
+    (
         "{name}: its keys have no room in its frames",
         "{name} : ses clés n’ont pas de place dans ses images",
     ),

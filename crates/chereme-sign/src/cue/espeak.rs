@@ -45,7 +45,10 @@ fn first(letters: &[char], code: &CueCode, alphabet: Alphabet) -> Option<String>
     const LONGEST: usize = 4;
     (1..=LONGEST.min(letters.len())).rev().find_map(|count| {
         let label: String = letters[..count].iter().collect();
-        let known = !label.contains(' ') && code.symbols(&label, alphabet).is_some();
+        // `eu` and `oe` are labels of one phone by themselves only: `poezi` has an `o` and an `e`.
+        let several = alphabet == Alphabet::Sampa && count > 1;
+        let several = several && label.bytes().all(|letter| b"aeiouy".contains(&letter));
+        let known = !several && !label.contains(' ') && code.symbols(&label, alphabet).is_some();
         known.then_some(label)
     })
 }

@@ -19,7 +19,7 @@ mod utterance;
 mod written;
 
 pub use espeak::of_espeak;
-pub use names::{gloss, of_gloss, placement_number, placement_of_number};
+pub use names::{gloss, key_of_label, of_gloss, placement_number, placement_of_number};
 pub use utterance::{Reading, Utterance, UtteranceError};
 
 pub use code::{

@@ -37,6 +37,48 @@ pub fn of_gloss(text: &str) -> Option<(&str, u8)> {
     (!placement.is_empty()).then_some((placement, shape))
 }
 
+/// The letters of placements in the annotation of SPPAS, which writes the shape first.
+const LETTERS: [(&str, &str); 5] = [
+    ("s", "side"),
+    ("m", "mouth"),
+    ("c", "chin"),
+    ("b", "cheek"),
+    ("t", "throat"),
+];
+
+/// Returns the placement and the shape of a key on a tier or in a query; `None` if the text is none.
+///
+/// A key is a gloss, the same without its prefix, SPPAS's shape and letter, or the two digits of the paper.
+///
+/// ```
+/// use chereme_sign::cue::key_of_label;
+/// for text in ["cue:mouth-4", "mouth-4", "4-m", "4-mouth", "24"] {
+///     assert_eq!(key_of_label(text), Some(("mouth", 4)));
+/// }
+/// assert_eq!(key_of_label("papa"), None);
+/// ```
+#[must_use]
+pub fn key_of_label(text: &str) -> Option<(&str, u8)> {
+    let text = text.trim();
+    if text.starts_with(PREFIX) {
+        return of_gloss(text);
+    }
+    let is_digit = |part: &str| part.len() == 1 && part.bytes().all(|byte| byte.is_ascii_digit());
+    let (placement, shape) = match text.split_once('-') {
+        Some((shape, placement)) if is_digit(shape) => {
+            let letter = LETTERS.iter().find(|(letter, _)| *letter == placement);
+            (letter.map_or(placement, |(_, name)| *name), shape)
+        }
+        Some(_) => text.rsplit_once('-')?,
+        None => {
+            let (number, shape) = text.split_at_checked(1).filter(|parts| is_digit(parts.0))?;
+            (placement_of_number(number.parse().ok()?)?, shape)
+        }
+    };
+    let shape = shape.parse().ok().filter(|_| is_digit(shape))?;
+    (shape <= 8 && NUMBERS.contains(&placement)).then_some((placement, shape))
+}
+
 /// Returns the placement of a number of the paper, such as 2 for `mouth`.
 #[must_use]
 pub fn placement_of_number(number: usize) -> Option<&'static str> {

@@ -51,6 +51,10 @@ fn consonants_and_vowels_share_keys_as_charts_print_them() {
         ("french", "fp a", "5-side"),
         ("french", "m a X a", "5-side 5-side !"),
         ("french", "tS i", "5-side 6-mouth"),
+        // The labels of SPPAS.
+        ("french", "l O/ t E/", "6-chin 5-chin"),
+        ("french", "v U~/ d a~ m o~", "2-cheek 1-mouth 5-mouth"),
+        ("french", "p eu p oe R", "1-cheek 1-side 3-side"),
         (
             "english-us",
             "m aI h aU s",

@@ -300,6 +300,7 @@ mod tests {
             ("french", Alphabet::Ipa, "/lə.ʃa/ [dɔʁ]", "l ə ʃ a d ɔ ʁ"),
             ("french", Alphabet::Ipa, "\\œ̃.n‿wa.zo\\", "œ̃ n w a z o"),
             ("french", Alphabet::Sampa, "bO~ZuR", "b O~ Z u R"),
+            ("french", Alphabet::Sampa, "poezi oe", "p o e z i oe"),
             (
                 "english-us",
                 Alphabet::Ipa,

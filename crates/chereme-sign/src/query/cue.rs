@@ -57,19 +57,10 @@ fn wanted(value: &Value, glob: fn(&str) -> Option<String>) -> Result<Pattern, Qu
     })
 }
 
-/// Returns the gloss of a key written as `24` or `mouth-4`.
+/// Returns the gloss of a key, however it is written.
 fn key(text: &str) -> Option<String> {
-    let digits: Vec<usize> = text
-        .chars()
-        .map(|c| c.to_digit(10).map(|digit| digit as usize))
-        .collect::<Option<_>>()
-        .unwrap_or_default();
-    if let [placement, shape] = digits[..] {
-        let name = cue::placement_of_number(placement)?;
-        return (shape <= 8).then(|| format!("cue:{name}-{shape}"));
-    }
-    let whole = format!("cue:{}", text.strip_prefix("cue:").unwrap_or(text));
-    cue::of_gloss(&whole).is_some().then_some(whole)
+    let (placement, shape) = cue::key_of_label(text)?;
+    Some(cue::gloss(placement, shape))
 }
 
 /// Returns the name of a placement; a number of the founding paper is translated.
