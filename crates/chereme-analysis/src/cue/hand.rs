@@ -18,6 +18,13 @@ pub type Frame = Vec<Option<DVec3>>;
 
 /// The number of angles computed from the markers: 3 of the back of the hand, 4 of each finger, 6 of the thumb.
 pub const ANGLES: usize = 25;
+/// The number of those angles that are bends of fingers and thumb.
+pub const BENDS: usize = ANGLES - 3;
+/// The usual distance from the joint of each bend to the tip, in millimetres.
+const LENGTHS: [f64; BENDS] = [
+    90.0, 90.0, 50.0, 25.0, 90.0, 90.0, 50.0, 25.0, 90.0, 90.0, 50.0, 25.0, 90.0, 90.0, 50.0, 25.0,
+    40.0, 40.0, 30.0, 30.0, 25.0, 25.0,
+];
 /// The smallest mean square error used to weight a marker, in square millimetres along one axis.
 const LEAST_ERROR: f64 = 0.3;
 /// The number of Gauss-Newton steps from the posture of the previous frame, and from one computed from the markers.
@@ -286,6 +293,20 @@ impl HandModel {
             tip(0)?.distance(tip(1)?),
             at(THUMB + 5)?.distance(palm),
         ])
+    }
+
+    /// Returns the bends of fingers and thumb in each frame, in millimetres that their tips move; NaN for those whose
+    /// markers are hidden.
+    #[must_use]
+    pub fn bends_seen(frames: &[Frame]) -> Vec<[f64; BENDS]> {
+        let Ok(back) = mean_rigid(frames, BACK) else {
+            return vec![[f64::NAN; BENDS]; frames.len()];
+        };
+        let scaled = |frame: &Frame| {
+            let angles = angles(frame, &back);
+            std::array::from_fn(|n| angles[ANGLES - BENDS + n] * LENGTHS[n])
+        };
+        frames.iter().map(scaled).collect()
     }
 
     /// Returns the fingertip that points for a shape, if it is visible.

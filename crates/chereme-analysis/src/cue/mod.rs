@@ -11,7 +11,8 @@
 //! | [`hand`] | markers from angles, and restoration of hidden markers with a predicted error |
 //! | [`face`] | seven guided components, and the weights of the throat |
 //! | [`gauss`] | recognisers of shapes and placements, with confusion tables |
-//! | [`session`] | takes of one cuer: fingertips, gestures of keys, recognition and phases |
+//! | [`session`] | takes of one cuer: fingertips, bends, gestures of keys, recognition |
+//! | [`phases`](mod@phases) | begin and arrival of hand and fingers against the sounds |
 //! | [`targets`](mod@targets) | target frames of keys, arrival of the hand, quartiles |
 //! | [`generate`] | generated sessions with known truth, from a seed |
 //! | `linear`, `terms` | small matrices; the terms of the hand's regression |
@@ -23,6 +24,9 @@ pub mod hand;
 pub mod labels;
 pub mod linear;
 pub mod pca;
+#[cfg(test)]
+mod phase_tests;
+pub mod phases;
 pub mod rigid;
 pub mod session;
 pub mod targets;

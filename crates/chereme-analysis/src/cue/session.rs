@@ -1,16 +1,15 @@
 //! Takes of one cuer: fingertips and distances from markers, with targets, scores and phases of keys.
 
+use chereme_motion::Interpolation;
 use glam::DVec3;
 
 use super::ModelError;
 use super::face;
 use super::gauss::Recogniser;
-use super::hand::{self, HandModel};
+use super::hand::{self, BENDS, HandModel};
 use super::labels::RIGID;
 use super::rigid::Rigid;
-use super::targets::{
-    AFTER, LEAST, MinimumJerkFit, Quartiles, Sought, TargetOptions, handed_over, targets,
-};
+use super::targets::{AFTER, LEAST, MovementFit, Sought, TargetOptions, handed_over, targets};
 
 /// Measurements of a take, computed from its markers.
 #[derive(Debug, Clone, Default)]
@@ -21,6 +20,8 @@ pub struct Followed {
     pub head: Vec<Option<Rigid>>,
     /// The seven distances that distinguish shapes.
     pub seven: Vec<Option<[f64; 7]>>,
+    /// The bends of fingers and thumb, in millimetres of their tips.
+    pub bends: Vec<Option<[f64; BENDS]>>,
     /// The tip of the index finger in the space of the head.
     pub index: Vec<Option<DVec3>>,
     /// The tip of the middle finger in the space of the head.
@@ -31,20 +32,13 @@ impl Followed {
     /// Returns the measurements for markers whose positions are all known, given the head's motion in each frame.
     #[must_use]
     pub fn of_truth(points: &[Vec<DVec3>], heads: &[Rigid], rate: f64) -> Self {
-        let mut followed = Self {
-            rate,
-            ..Self::default()
-        };
-        for (points, head) in points.iter().zip(heads) {
-            followed.push(Some(points), Some(*head));
-            followed.head.push(Some(*head));
-        }
-        followed
+        let known = |points: &Vec<DVec3>| points.iter().copied().map(Some).collect();
+        let hand: Vec<hand::Frame> = points.iter().map(known).collect();
+        Self::of_hand_frames(&hand, heads.iter().copied().map(Some).collect(), rate)
     }
 
     /// Returns the measurements computed from markers alone; hidden ones may have been restored before. A tip or a
-    /// distance with missing markers is unknown, and gaps of at most a quarter of a second are bridged by straight
-    /// lines.
+    /// number with missing markers is unknown, and gaps of at most a quarter of a second are bridged by straight lines.
     ///
     /// `rigid` gives the usual positions of the head's rigid markers; without them the room is used as the space of the
     /// head.
@@ -55,46 +49,38 @@ impl Followed {
         rigid: Option<&[DVec3]>,
         rate: f64,
     ) -> Self {
-        let mut followed = Self {
-            rate,
-            ..Self::default()
-        };
-        for (n, frame) in hand.iter().enumerate() {
-            let head = match rigid {
-                None => Some(Rigid::default()),
-                Some(rigid) => face
-                    .get(n)
-                    .and_then(|face| face.get(RIGID))
-                    .and_then(|seen| Rigid::fit(rigid, seen).ok()),
-            };
-            followed.seven.push(HandModel::distances_seen(frame));
-            let tip = |shape: u8| {
-                let at = HandModel::tip_seen(frame, shape)?;
-                Some(head?.undo(at)).filter(|at| at.is_finite())
-            };
-            let (index, middle) = (tip(1), tip(4));
-            followed.index.push(index);
-            followed.middle.push(middle);
-            followed.head.push(head);
-        }
-        let most = (BRIDGED * rate) as usize;
-        bridge(&mut followed.seven, most, |a, b, share| {
-            std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
+        let head = (0..hand.len()).map(|n| match rigid {
+            None => Some(Rigid::default()),
+            Some(rigid) => face
+                .get(n)
+                .and_then(|face| face.get(RIGID))
+                .and_then(|seen| Rigid::fit(rigid, seen).ok()),
         });
+        let mut followed = Self::of_hand_frames(hand, head.collect(), rate);
+        let most = (BRIDGED * rate) as usize;
+        bridge(&mut followed.seven, most, mixed_numbers);
         bridge(&mut followed.index, most, |a, b, share| a.lerp(b, share));
         bridge(&mut followed.middle, most, |a, b, share| a.lerp(b, share));
         followed
     }
 
-    fn push(&mut self, points: Option<&[DVec3]>, head: Option<Rigid>) {
-        self.seven.push(points.and_then(HandModel::distances));
-        let tip = |shape: u8| {
-            let tip = HandModel::tip(points?, shape)?;
-            Some(head?.undo(tip)).filter(|at| at.is_finite())
+    fn of_hand_frames(hand: &[hand::Frame], head: Vec<Option<Rigid>>, rate: f64) -> Self {
+        let tips = |shape: u8| {
+            let frames = hand.iter().zip(&head);
+            let tip = |(frame, head): (&hand::Frame, &Option<Rigid>)| {
+                let at = HandModel::tip_seen(frame, shape)?;
+                Some((*head)?.undo(at)).filter(|at| at.is_finite())
+            };
+            frames.map(tip).collect()
         };
-        let (index, middle) = (tip(1), tip(4));
-        self.index.push(index);
-        self.middle.push(middle);
+        Self {
+            rate,
+            seven: hand.iter().map(HandModel::distances_seen).collect(),
+            bends: bridged_bends(hand, (BRIDGED * rate) as usize),
+            index: tips(1),
+            middle: tips(4),
+            head,
+        }
     }
 
     /// Returns the number of frames.
@@ -127,6 +113,25 @@ impl Followed {
 
 /// The longest gap that is bridged, in seconds.
 const BRIDGED: f64 = 0.25;
+
+fn mixed_numbers<const N: usize>(a: [f64; N], b: [f64; N], share: f64) -> [f64; N] {
+    std::array::from_fn(|k| a[k] + (b[k] - a[k]) * share)
+}
+
+/// Returns the bends in each frame in which none is unknown; gaps of each number are bridged by itself.
+fn bridged_bends(hand: &[hand::Frame], most: usize) -> Vec<Option<[f64; BENDS]>> {
+    let mut rows = HandModel::bends_seen(hand);
+    for k in 0..BENDS {
+        let known = |row: &[f64; BENDS]| row[k].is_finite().then_some([row[k]]);
+        let mut column: Vec<Option<[f64; 1]>> = rows.iter().map(known).collect();
+        bridge(&mut column, most, mixed_numbers);
+        for (row, number) in rows.iter_mut().zip(column) {
+            row[k] = number.map_or(f64::NAN, |[number]| number);
+        }
+    }
+    let whole = |row: [f64; BENDS]| row.iter().all(|number| number.is_finite()).then_some(row);
+    rows.into_iter().map(whole).collect()
+}
 
 /// Fills gaps of at most `most` frames between two known frames.
 pub fn bridge<T: Copy>(rows: &mut [Option<T>], most: usize, between: impl Fn(T, T, f64) -> T) {
@@ -231,7 +236,7 @@ pub struct Gesture {
     /// The frame of the target.
     pub frame: usize,
     /// The movement to the target.
-    pub movement: MinimumJerkFit,
+    pub movement: MovementFit,
     /// Whether the movement was long and clear enough to be measured.
     pub measured: bool,
     /// The most probable class at the target.
@@ -459,15 +464,48 @@ fn teach(takes: &[(&Followed, &[Key])], frames: &[Frames]) -> Result<Recognisers
     Recognisers::learn(&shapes, &placements)
 }
 
+/// Returns the gestures of hand and fingers. The fingers' have the course that explains most of their movements: a fit with
+/// another one ends too early or too late. The hand's are of minimum jerk, as its pointing tip moves with the fingers, too.
 fn gestures(
     take: &Followed,
     keys: &[Key],
     frames: &Frames,
     known: &Recognisers,
 ) -> Vec<KeyGestures> {
+    let [mut usual, other] = [Interpolation::MinimumJerk, Interpolation::Cosine]
+        .map(|course| gestures_of_course(take, keys, frames, known, course));
+    let both = usual
+        .iter()
+        .zip(&other)
+        .map(|(a, b)| (a.fingers, b.fingers));
+    let measured = both.filter(|(a, b)| a.measured && b.measured);
+    let gain: f64 = measured
+        .map(|(a, b)| b.movement.explained - a.movement.explained)
+        .sum();
+    if gain > 0.0 {
+        for (usual, other) in usual.iter_mut().zip(other) {
+            usual.fingers = other.fingers;
+        }
+    }
+    usual
+}
+
+fn gestures_of_course(
+    take: &Followed,
+    keys: &[Key],
+    frames: &Frames,
+    known: &Recognisers,
+    course: Interpolation,
+) -> Vec<KeyGestures> {
     let Some([hand, fingers]) = frames else {
         return Vec::new();
     };
+    // Distances hardly change near a straight finger, so that only bends show when it arrives there.
+    let [bends, seven] = [
+        take.bends.iter().flatten().count(),
+        take.seven.iter().flatten().count(),
+    ];
+    let has_bends = 2 * bends >= seven;
     let tips = [true, false].map(|index| {
         let of = if index { &take.index } else { &take.middle };
         let rows = of.iter().map(|at| at.map(|at| at.to_array()));
@@ -496,9 +534,12 @@ fn gestures(
         };
         let same = before.is_some_and(|n| keys[n].placement == key.placement);
         let near = around(hand, |it| it.hand);
-        let hand = gesture(take, &near, key.placement, rows, posteriors, same);
+        let hand = gesture(take, &near, key.placement, rows, course, posteriors, same);
         let rows = |frame: usize| {
-            let row = take.seven.get(frame)?.as_ref()?.as_slice();
+            let row = match has_bends {
+                true => take.bends.get(frame)?.as_ref()?.as_slice(),
+                false => take.seven.get(frame)?.as_ref()?.as_slice(),
+            };
             Some([row, row])
         };
         let posteriors = |frame: usize| {
@@ -507,7 +548,7 @@ fn gestures(
         };
         let same = before.is_some_and(|n| keys[n].shape == key.shape);
         let near = around(fingers, |it| it.fingers);
-        let fingers = gesture(take, &near, key.shape, rows, posteriors, same);
+        let fingers = gesture(take, &near, key.shape, rows, course, posteriors, same);
         all.push(KeyGestures { hand, fingers });
     }
     all
@@ -536,11 +577,12 @@ fn movement<'a>(
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
     (from, to, most): (usize, usize, usize),
     frame_time: f64,
-) -> Option<MinimumJerkFit> {
+    course: Interpolation,
+) -> Option<MovementFit> {
     const MORE: usize = 3;
     let mut to = to;
     loop {
-        let found = handed_over(&rows, (from, to), frame_time)?;
+        let found = handed_over(&rows, (from, to), frame_time, course)?;
         let at_its_limit = found.end / frame_time >= to as f64 + AFTER - 0.5;
         if !at_its_limit || to >= most {
             return Some(found);
@@ -554,6 +596,7 @@ fn gesture<'a>(
     around: &Around,
     right: u8,
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
+    course: Interpolation,
     posteriors: impl Fn(usize) -> Option<Vec<(u8, f64)>>,
     same: bool,
 ) -> Gesture {
@@ -565,8 +608,13 @@ fn gesture<'a>(
     let arrived = if arrived + LEAST <= frame { arrived } else { 0 };
     let from = before.map_or(earliest, |before| before.max(arrived).max(earliest));
     let most = after.unwrap_or(last).min(last);
-    let found = movement(rows, (from, (frame + 2).min(most), most), frame_time);
-    let still = MinimumJerkFit {
+    let found = movement(
+        rows,
+        (from, (frame + 2).min(most), most),
+        frame_time,
+        course,
+    );
+    let still = MovementFit {
         start: frame as f64 * frame_time,
         end: frame as f64 * frame_time,
         length: 0.0,
@@ -602,67 +650,4 @@ fn gesture<'a>(
         log,
         extent,
     }
-}
-
-/// The phases of keys of one kind: begin and arrival of the hand or the fingers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Phases {
-    /// The sounds of the keys.
-    pub kind: KeySounds,
-    /// Whether the movements are those of the fingers; otherwise those of the hand.
-    pub of_fingers: bool,
-    /// The begin of the movement minus the start of the key's sound, in seconds.
-    pub begins: Quartiles,
-    /// The end of the movement minus the start of the key's sound, in seconds.
-    pub arrives: Quartiles,
-    /// The arrival as a share of the consonant for pairs, and of the key for others.
-    pub share: Quartiles,
-}
-
-/// Returns the phases of measured keys by kind, for the hand and the fingers; a key with the same placement, or the
-/// same shape, as the one before does not count.
-#[must_use]
-pub fn phases<'a>(
-    takes: impl Iterator<Item = (&'a [Key], &'a [KeyGestures])> + Clone,
-) -> Vec<Phases> {
-    let mut found = Vec::new();
-    for of_fingers in [false, true] {
-        for kind in KeySounds::ALL {
-            let (mut begins, mut arrives, mut shares) = (Vec::new(), Vec::new(), Vec::new());
-            for (keys, shown) in takes.clone() {
-                for (key, shown) in keys.iter().zip(shown) {
-                    let own = if of_fingers {
-                        shown.fingers
-                    } else {
-                        shown.hand
-                    };
-                    if key.kind != kind || !own.measured {
-                        continue;
-                    }
-                    let end = if kind == KeySounds::Pair {
-                        key.a2
-                    } else {
-                        key.a3
-                    };
-                    begins.push(own.movement.start - key.a1);
-                    arrives.push(own.movement.end - key.a1);
-                    shares.push((own.movement.end - key.a1) / (end - key.a1).max(0.01));
-                }
-            }
-            if let (Some(begins), Some(arrives), Some(share)) = (
-                Quartiles::of(&begins),
-                Quartiles::of(&arrives),
-                Quartiles::of(&shares),
-            ) {
-                found.push(Phases {
-                    kind,
-                    of_fingers,
-                    begins,
-                    arrives,
-                    share,
-                });
-            }
-        }
-    }
-    found
 }

@@ -108,9 +108,9 @@ pub fn targets(
     Some(found)
 }
 
-/// A minimum-jerk movement fitted to numbers by frame.
+/// A movement from rest to rest, fitted to numbers by frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MinimumJerkFit {
+pub struct MovementFit {
     /// Its start, in seconds.
     pub start: f64,
     /// Its end, in seconds.
@@ -139,19 +139,21 @@ pub fn fit_movement<'a>(
     row: impl Fn(usize) -> Option<&'a [f64]>,
     range: (usize, usize),
     frame_time: f64,
-) -> Option<MinimumJerkFit> {
-    handed_over(|frame| row(frame).map(|row| [row, row]), range, frame_time)
+) -> Option<MovementFit> {
+    let rows = |frame| row(frame).map(|row| [row, row]);
+    handed_over(rows, range, frame_time, Interpolation::MinimumJerk)
 }
 
 /// Fits a movement that one point begins and another ends, as when the middle finger points first and the index finger
-/// later: in the course of the movement, the first of the two rows of each frame gives way to the second. Otherwise as
-/// [`fit_movement`].
+/// later: in the course of the movement, the first of the two rows of each frame gives way to the second. The movement
+/// has the given course. Otherwise as [`fit_movement`].
 #[must_use]
 pub fn handed_over<'a>(
     rows: impl Fn(usize) -> Option<[&'a [f64]; 2]>,
     (from, to): (usize, usize),
     frame_time: f64,
-) -> Option<MinimumJerkFit> {
+    course: Interpolation,
+) -> Option<MovementFit> {
     let seen: Vec<(f64, [&[f64]; 2])> = (from..=to)
         .filter_map(|frame| Some((frame as f64, rows(frame)?)))
         .collect();
@@ -165,7 +167,7 @@ pub fn handed_over<'a>(
     let mut best = (Fit::NONE, first, last);
     let better = |best: &mut (Fit, f64, f64), start: f64, end: f64| {
         if start >= first - 1.0 && end <= last && end - start >= shortest {
-            let own = Fit::of(&seen, width, start, end);
+            let own = Fit::of(&seen, course, start, end);
             if own.left < best.0.left {
                 *best = (own, start, end);
                 return true;
@@ -205,7 +207,7 @@ pub fn handed_over<'a>(
         }
     }
     let (fit, start, end) = best;
-    Some(MinimumJerkFit {
+    Some(MovementFit {
         start: start * frame_time,
         end: end * frame_time,
         length: fit.length,
@@ -232,10 +234,9 @@ impl Fit {
         length: 0.0,
     };
 
-    fn of(seen: &[(f64, [&[f64]; 2])], width: usize, start: f64, end: f64) -> Self {
-        let share = |time: f64| {
-            Interpolation::MinimumJerk.share(((time - start) / (end - start)).clamp(0.0, 1.0))
-        };
+    fn of(seen: &[(f64, [&[f64]; 2])], course: Interpolation, (start, end): (f64, f64)) -> Self {
+        let width = seen.first().map_or(0, |(_, rows)| rows[0].len());
+        let share = |time: f64| course.share((time - start) / (end - start));
         let count = seen.len() as f64;
         let shares: Vec<f64> = seen.iter().map(|(time, _)| share(*time)).collect();
         let middle = shares.iter().sum::<f64>() / count;

@@ -6,10 +6,9 @@ use crate::cue::face::{FaceModel, share_of};
 use crate::cue::gauss::{Confusion, Recogniser};
 use crate::cue::generate::{self, RATE, Settings, Take};
 use crate::cue::hand::HandModel;
+use crate::cue::phases::phases;
 use crate::cue::rigid::Rigid;
-use crate::cue::session::{
-    Followed, Key, KeyGestures, KeySounds, examples, find, find_known, phases,
-};
+use crate::cue::session::{Followed, Key, KeyGestures, KeySounds, examples, find, find_known};
 use crate::golden::{compare, put};
 
 fn clean() -> Settings {

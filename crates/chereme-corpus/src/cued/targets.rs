@@ -3,7 +3,8 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use chereme_analysis::cue::session::{Gesture, KeyGestures, KeySounds, phases};
+use chereme_analysis::cue::phases::phases;
+use chereme_analysis::cue::session::{Gesture, KeyGestures, KeySounds};
 use chereme_analysis::cue::targets::Quartiles;
 use chereme_compose::CueTier;
 use chereme_sign::TierRole;
