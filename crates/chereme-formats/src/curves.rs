@@ -241,8 +241,13 @@ impl Channels {
         });
         let curves = Curves::new(times, curves.collect())
             .map_err(|error| Error::Track(error.to_string()))?;
-        let channels = curves.curves().iter().map(|curve| curve.name.as_str());
-        let is_face = kind != CurveFile::Plain || System::of_names(channels).is_some();
+        let system = System::of(&curves);
+        if let Some(system) = system {
+            for unit in system.view(&curves).units {
+                findings.push(unit);
+            }
+        }
+        let is_face = kind != CurveFile::Plain || system.is_some();
         let name = if is_face { "face" } else { "curves" };
         let mut track = FileTrack::new(name, Content::Curves(curves));
         track.offset = offset;

@@ -243,6 +243,30 @@ pub(super) const FINDINGS: &[(&str, &str)] = &[
         "les formes devraient être des parts de 0 à 1 et atteignent {n} : elles sont lues en pour cent",
     ),
     (
+        "check them: if they are shares beyond 1, cut them to 1 and import the file again",
+        "vérifiez-les : si ce sont des parts au-delà de 1, ramenez-les à 1 et réimportez le fichier",
+    ),
+    (
+        "nothing needs to be done if they are",
+        "rien n’est à faire si c’est bien le cas",
+    ),
+    (
+        "the turns of the head are degrees and reach {n}: they were converted",
+        "les rotations de la tête sont en degrés et atteignent {n} : elles ont été converties",
+    ),
+    (
+        "the turns of the head reach {n}: they are read as degrees",
+        "les rotations de la tête atteignent {n} : elles sont lues en degrés",
+    ),
+    (
+        "the turns of the head reach {n}, too far for radians and little for degrees: they are read as radians",
+        "les rotations de la tête atteignent {n}, trop pour des radians et peu pour des degrés : elles sont lues en radians",
+    ),
+    (
+        "write the unit into the titles, such as HeadYaw [deg] or HeadYaw [rad]",
+        "écrivez l’unité dans les titres, comme HeadYaw [deg] ou HeadYaw [rad]",
+    ),
+    (
         "the first column counts frames, whose rate is not stated; write it into its title, such as frame [30 fps]",
         "la première colonne compte des images, dont la cadence n’est pas indiquée ; écrivez-la dans son titre, comme frame [30 fps]",
     ),

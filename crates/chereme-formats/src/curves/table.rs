@@ -5,14 +5,12 @@ use std::borrow::Cow;
 use chereme_motion::column::Number;
 
 use super::{Channels, Clock, Error};
+use crate::faces::{FARTHEST_TURN, HALF_TURN};
 use crate::finding::Finding;
 use crate::table::is_gap;
 use crate::tally::Findings;
 use crate::timecode;
 use crate::tracks::rate_of;
-
-/// The largest angle in radians; greater numbers are degrees, as no head turns so far.
-const MOST_RADIANS: f64 = 3.2;
 
 /// The longest usual step of timestamps, in seconds, that are no times: OpenFace writes milliseconds or 0 for a series
 /// of pictures.
@@ -105,13 +103,46 @@ fn channels(table: &Table, left_out: &[usize]) -> Result<Channels, Error> {
     let kept: Vec<usize> = (0..table.header.len())
         .filter(|at| !left_out.contains(at))
         .collect();
-    let mut channels = Channels::new(kept.iter().map(|at| table.header[*at].clone()).collect());
+    let named = kept.iter().map(|at| name_and_unit(&table.header[*at]));
+    let (names, units): (Vec<String>, Vec<&str>) = named.unzip();
+    let mut channels = Channels::new(names);
+    channels.units = units;
     for (line, row) in &table.rows {
         for (column, at) in channels.columns.iter_mut().zip(&kept) {
             column.push(number(&row[*at], *line, table.has_commas)?);
         }
     }
     Ok(channels)
+}
+
+/// The units that titles name, each with the unit that it stands for.
+const UNITS: [(&str, &str); 14] = [
+    ("rad", "rad"),
+    ("radians", "rad"),
+    ("deg", "deg"),
+    ("degrees", "deg"),
+    ("°", "deg"),
+    ("mm", "mm"),
+    ("cm", "cm"),
+    ("m", "m"),
+    ("N", "N"),
+    ("mV", "mV"),
+    ("V", "V"),
+    ("px", "px"),
+    ("s", "s"),
+    ("ms", "ms"),
+];
+
+/// Returns the name and the unit of a title such as `HeadYaw [deg]`, or of an angle's such as `head_yaw_deg`; an unknown
+/// unit is part of the name.
+fn name_and_unit(title: &str) -> (String, &'static str) {
+    let known = title.rsplit_once([' ', '_']).and_then(|(name, unit)| {
+        let bare = unit.trim_matches(['[', ']', '(', ')']);
+        let (_, known) = UNITS.iter().find(|(known, _)| *known == bare)?;
+        let is_angle = ["rad", "deg"].contains(known);
+        (bare.len() < unit.len() || is_angle).then(|| (name.to_owned(), *known))
+    });
+    known.unwrap_or_else(|| (title.to_owned(), ""))
 }
 
 pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels, Error> {
@@ -169,9 +200,16 @@ pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels,
         .iter()
         .flat_map(|at| channels.columns[*at].iter().flatten());
     let most = values.map(|value| value.to_f64().abs()).fold(0.0, f64::max);
-    let unit = if most > MOST_RADIANS { "deg" } else { "rad" };
+    // Between both nothing tells degrees from radians.
+    let unit = match most {
+        _ if most > HALF_TURN => "deg",
+        _ if most > FARTHEST_TURN => "",
+        _ => "rad",
+    };
     for at in turns {
-        channels.units[at] = unit;
+        if channels.units[at].is_empty() {
+            channels.units[at] = unit;
+        }
     }
     Ok(channels)
 }
@@ -246,6 +284,9 @@ fn face(table: &Table, findings: &mut Findings) -> Result<Channels, Error> {
         ));
     }
     for (at, name) in channels.names.iter().enumerate() {
+        if !channels.units[at].is_empty() {
+            continue;
+        }
         channels.units[at] = match name.as_str() {
             "timestamp" => "s",
             "pose_Tx" | "pose_Ty" | "pose_Tz" => "mm",
@@ -386,21 +427,6 @@ pub(super) fn plain(text: &str, findings: &mut Findings) -> Result<Channels, Err
     let (at, unit) = column_of_time(titles).ok_or(Error::NoRate)?;
     let left_out: Vec<usize> = (0..=at).collect();
     let mut channels = channels(&table, &left_out)?;
-    // A unit stands behind the name in square brackets.
-    let known = [
-        "rad", "deg", "mm", "cm", "m", "N", "mV", "V", "px", "s", "ms",
-    ];
-    for (name, unit) in channels.names.iter_mut().zip(&mut channels.units) {
-        let split = name
-            .strip_suffix(']')
-            .and_then(|rest| rest.rsplit_once(" ["));
-        if let Some((bare, given)) = split
-            && let Some(known) = known.iter().find(|known| **known == given)
-        {
-            *unit = known;
-            *name = bare.to_owned();
-        }
-    }
     channels.clock = match unit {
         TimeUnit::Seconds(unit) => {
             let times = seconds(&table, at, unit)?;

@@ -181,6 +181,51 @@ fn degrees_and_radians_are_distinguished_by_their_size() {
 }
 
 #[test]
+fn units_of_faces_that_are_converted_or_guessed_are_reported_at_import() {
+    // The title of the turns with their largest value, the shapes' largest value, the yaw (rad), and what is said.
+    let cases = [
+        ("HeadYaw", 20.0, 0.9, 0.349, "read as degrees"),
+        ("HeadYaw [deg]", 20.0, 0.9, 0.349, "are degrees"),
+        ("HeadYaw_deg", 1.0, 0.9, 0.0175, "are degrees"),
+        ("HeadYaw (degrees)", 1.0, 0.9, 0.0175, "are degrees"),
+        ("HeadYaw", 1.0, 0.9, 1.0, ""),
+        ("HeadYaw [rad]", 2.5, 0.9, 2.5, ""),
+        ("HeadYaw", 2.5, 0.9, 2.5, "too far for radians"),
+        ("HeadYaw", 1.0, 90.0, 1.0, "percent"),
+        ("HeadYaw", 1.0, 3.0, 1.0, "percent"),
+    ];
+    for head in ["time [s]", "Timecode,BlendshapeCount"] {
+        for (title, turn, shape, yaw, said) in cases {
+            let pitch = title.replace("Yaw", "Pitch");
+            let roll = title.replace("Yaw", "Roll");
+            let first = ["0", "00:00:00:00.0,52"][usize::from(head.starts_with('T'))];
+            let next = ["0.1", "00:00:00:01.0,52"][usize::from(head.starts_with('T'))];
+            let text = format!(
+                "{head},JawOpen,BrowInnerUp,EyeBlinkLeft,{title},{pitch},{roll}\n{first},0,0,0,0,0,0\n{next},{shape},0,0,{turn},0,0\n"
+            );
+            let (found, _, findings) = curves(&text);
+            let view = System::of(&found).expect("a face").view(&found);
+            let turned = view.head.expect("turns")[1][1];
+            assert!((turned - yaw).abs() < 1e-3, "{title} {turn}: {turned}");
+            let unit = |it: &&Finding| {
+                let says = |part| it.message.contains(part);
+                says("turns of the head") || says("percent")
+            };
+            let units: Vec<&Finding> = findings.iter().filter(unit).collect();
+            assert_eq!(
+                units.len(),
+                usize::from(!said.is_empty()),
+                "{title}: {units:?}"
+            );
+            assert!(
+                units.iter().all(|unit| unit.message.contains(said)),
+                "{title}: {units:?}"
+            );
+        }
+    }
+}
+
+#[test]
 fn open_face_keeps_every_column_and_reports_lost_faces() {
     let text = "frame, timestamp, confidence, success, pose_Tx, AU01_r\n1, 0, 0.9, 1, 3.5, 0.1\n2, 0.04, 0.1, 0, 0, 0\n";
     let (curves, _, findings) = curves(text);

@@ -133,6 +133,8 @@ pub struct View {
     pub bridged: usize,
     /// The losses of the mapping, and oddities of the capture.
     pub findings: Vec<Finding>,
+    /// The units that were converted or guessed; they are among the findings, too.
+    pub units: Vec<Finding>,
 }
 
 impl View {
@@ -212,13 +214,13 @@ impl System {
                 columns.entry(name).or_insert(whole);
             }
         }
-        let mut percent = None;
+        let mut units = Vec::new();
         if self.shares {
             let of_head = Self::named_in(self.head.values().chain(self.place.values()));
             let (turns, mut shapes) = columns
                 .into_iter()
                 .partition(|(name, _)| of_head.contains(name));
-            percent = from_percent(&mut shapes);
+            units.extend(from_percent(&mut shapes));
             columns = turns;
             columns.extend(shapes);
         }
@@ -239,12 +241,15 @@ impl System {
             Face::from_numbers(std::array::from_fn(|at| number(&numbers[at])))
         };
         let known = std::array::from_fn(|at| numbers[at].is_some());
-        let head: Option<Vec<[f64; 3]>> = three(&self.head, ["pitch", "yaw", "roll"]);
+        let mut head: Option<Vec<[f64; 3]>> = three(&self.head, ["pitch", "yaw", "roll"]);
+        if let Some(head) = &mut head {
+            units.extend(from_degrees(head, self.stated_unit(curves)));
+        }
         let still = head
             .as_ref()
             .is_some_and(|all| all.iter().flatten().all(|it| *it == 0.0));
         let mut findings = self.findings(&known);
-        findings.extend(percent);
+        findings.extend(units.iter().cloned());
         if still {
             let says = "the turns of the head are all 0: the tracker did not record them";
             findings.push(Finding::note(None, says));
@@ -260,7 +265,20 @@ impl System {
             place: three(&self.place, ["left", "up", "forward"]),
             bridged: bridged.into_iter().filter(|gap| *gap).count(),
             findings,
+            units,
         }
+    }
+
+    /// Returns the unit of the turns of the head as the file states it; empty if it does not.
+    fn stated_unit<'c>(&self, curves: &'c Curves) -> &'c str {
+        let turns = Self::named_in(self.head.values());
+        let mut own = curves.curves().iter().filter(|curve| {
+            let name = plain(&curve.name);
+            let alias = self.aliases.iter().find(|(alias, _)| plain(alias) == name);
+            turns.contains(&alias.map_or(name, |(_, channel)| plain(channel)))
+        });
+        own.find(|curve| !curve.unit.is_empty())
+            .map_or("", |curve| &curve.unit)
     }
 
     /// Returns for each frame whether the capture found no face in it.
@@ -337,6 +355,8 @@ fn plain(name: &str) -> String {
 
 /// The value above which numbers that should be shares are percent: trackers exceed 1 a little.
 const PERCENT: f64 = 2.0;
+/// The value above which they are percent without a doubt.
+const CLEARLY_PERCENT: f64 = 10.0;
 
 /// Divides the channels of shares by 100 if they are percent, and says so.
 fn from_percent(columns: &mut BTreeMap<String, Vec<f64>>) -> Option<Finding> {
@@ -352,7 +372,46 @@ fn from_percent(columns: &mut BTreeMap<String, Vec<f64>>) -> Option<Finding> {
     let says = format!(
         "the shapes should be shares from 0 to 1 and reach {most}: they are read as percent"
     );
-    Some(Finding::warning(None, says))
+    let remedy = match most < CLEARLY_PERCENT {
+        true => "check them: if they are shares beyond 1, cut them to 1 and import the file again",
+        false => "nothing needs to be done if they are",
+    };
+    Some(Finding::warning(None, says).with_remedy(remedy))
+}
+
+/// The farthest that a head turns to a side, in radians, with some room; a greater number may be degrees.
+pub(crate) const FARTHEST_TURN: f64 = 1.7;
+/// Half a turn in radians with some room: greater numbers are degrees.
+pub(crate) const HALF_TURN: f64 = 3.2;
+
+/// Converts the turns of a head to radians if they are degrees, by the unit that the file states or else by their size, and
+/// says so.
+fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<Finding> {
+    let most = (head.iter().flatten()).fold(0.0, |most: f64, turn| most.max(turn.abs()));
+    let remedy = "write the unit into the titles, such as HeadYaw [deg] or HeadYaw [rad]";
+    let finding = match unit {
+        "rad" => return None,
+        "deg" => Finding::note(
+            None,
+            format!("the turns of the head are degrees and reach {most}: they were converted"),
+        ),
+        _ if most > HALF_TURN => Finding::warning(
+            None,
+            format!("the turns of the head reach {most}: they are read as degrees"),
+        )
+        .with_remedy(remedy),
+        _ if most > FARTHEST_TURN => {
+            let says = format!(
+                "the turns of the head reach {most}, too far for radians and little for degrees: they are read as radians"
+            );
+            return Some(Finding::warning(None, says).with_remedy(remedy));
+        }
+        _ => return None,
+    };
+    for turn in head.iter_mut().flatten() {
+        *turn = turn.to_radians();
+    }
+    Some(finding)
 }
 
 /// Fills gaps by linear interpolation between their neighbours; `None` if there are only gaps.

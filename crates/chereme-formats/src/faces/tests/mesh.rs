@@ -179,6 +179,7 @@ fn weights_are_scaled_so_that_one_is_the_largest_movement_of_the_person() {
         place: None,
         bridged: 0,
         findings: Vec::new(),
+        units: Vec::new(),
     };
     let fit = Fit::of(&view).expect("a fit");
     assert!(fit.suits(&view));
