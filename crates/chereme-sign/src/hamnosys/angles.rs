@@ -8,7 +8,8 @@ use chereme_motion::{Finger, FingerAngles, HandAngles, ThumbAngles};
 
 use super::language::BodyLanguage;
 use super::tree::{
-    Bend, Digit, FingerContact, Form, HandClass, Handshape, Opening, ThumbExtra, ThumbPosition,
+    Bend, Digit, FingerContact, FingerPart, Form, HandClass, Handshape, Opening, ThumbExtra,
+    ThumbPosition,
 };
 
 /// The bends of three joints, in quarters of the largest bend.
@@ -38,6 +39,12 @@ pub fn finger_of(digit: Digit) -> Option<Finger> {
         Digit::Little => Some(Finger::Little),
     }
 }
+
+/// The further bends of two crossed fingers, the one in front of the palm first: 15 degrees; -4, 26 and 20 degrees, as
+/// measured in the movement of another animator.
+const CROSSED: [Units; 2] = [[0.68, 0.0, 0.0], [-0.18, 1.0, 1.1]];
+/// The spread of two crossed fingers in degrees towards the thumb, from the same measurement.
+const CROSSED_SPREAD: [f64; 2] = [-11.0, 8.0];
 
 /// A hand before its units become angles; betweenness averages these values.
 #[derive(Debug, Clone, Copy)]
@@ -297,19 +304,25 @@ fn middle(a: &Shape, b: &Shape) -> Shape {
     }
 }
 
-/// Lays one finger over another, or brings them together if they touch a part of the other.
+/// Crosses two fingers so that their tips change sides: the finger nearer to the thumb passes in front of the other, which
+/// curls about it. Fingers that touch at a base or a side come together.
 fn cross(hand: &mut Shape, contact: &FingerContact) {
-    let (Some(upper), Some(lower)) = (finger_of(contact.first), finger_of(contact.second)) else {
+    let (Some(one), Some(other)) = (finger_of(contact.first), finger_of(contact.second)) else {
         return;
     };
-    let (upper, lower) = (upper.index(), lower.index());
-    let towards = if upper < lower { -1.0 } else { 1.0 };
-    let far = if contact.part.is_some() { 4.0 } else { 8.0 };
-    hand.spread[upper] = towards * (far + 1.0);
-    hand.spread[lower] = -towards * (far - 1.0);
-    if contact.part.is_none() {
-        let lift: Units = [0.64, 0.46, 0.35];
-        for (joint, by) in hand.bends[upper].iter_mut().zip(lift) {
+    let front = one.index().min(other.index());
+    let back = one.index().max(other.index());
+    if matches!(contact.part, Some(FingerPart::Base | FingerPart::Side)) {
+        (hand.spread[front], hand.spread[back]) = (-4.0, 4.0);
+        return;
+    }
+    (hand.spread[front], hand.spread[back]) = (CROSSED_SPREAD[0], CROSSED_SPREAD[1]);
+    for (finger, by) in [front, back].into_iter().zip(CROSSED) {
+        let bends = &mut hand.bends[finger];
+        if *bends == CLOSED {
+            *bends = STRAIGHT;
+        }
+        for (joint, by) in bends.iter_mut().zip(by) {
             *joint = (*joint + by).min(4.0);
         }
     }
