@@ -8,6 +8,7 @@
 //! |---|---|
 //! | `plan` | from the tree to events: postures, transitions, acting hands and their frames |
 //! | `orient` | directions and palms of hands |
+//! | `duration` | signs whose speed or duration is written |
 //! | `transit` | transitions of hands from one state to another |
 //! | `approach` | transitions to movements, no faster than these |
 //! | `place` | positions of hands: on the body, in space, in constellations |
@@ -38,6 +39,9 @@ mod approach;
 mod arm;
 mod bulk;
 mod comfort;
+#[cfg(test)]
+mod crossed_tests;
+mod duration;
 #[cfg(test)]
 mod ease_tests;
 mod freedom;
@@ -167,10 +171,10 @@ pub fn animate(
     let rate = settings.rate.per_second();
     let paces = Paces::of(&settings.language);
     let language = (&settings.language, &paces);
-    let planner = Planner::new(&body, language, stage.handedness, rate);
-    let limits = planner.signer.limits;
-    let sides = planner.signer.sides;
-    let mut plan = planner.signs(signs);
+    let planner = || Planner::new(&body, language, stage.handedness, rate);
+    let limits = planner().signer.limits;
+    let (mut plan, asked) = duration::plan_timed(signs, |signs| planner().signs(signs));
+    let sides = plan.sides;
     let total = frames(plan.end, rate)?;
     let timing = track::Timing {
         paces: &paces,
@@ -259,6 +263,8 @@ pub fn animate(
         ));
     }
     plan.stretch(&warp);
+    plan.remarks
+        .extend(duration::missed_durations(&plan.signs, &asked));
     let language = &settings.language;
     let planned = match warp.is_none() {
         true => (0..total).map(|n| (n, 0.0)).collect(),
@@ -422,6 +428,19 @@ fn report(signs: &[&Notated], plan: &SignPlan, sides: [Side; 2], fits: [Option<F
         let n = usize::from(sides[1] == side);
         !plan.events[n].is_empty()
     };
+    let mut unknown: Vec<String> = signs
+        .iter()
+        .flat_map(|sign| sign.nonmanual.acts())
+        .filter(|(_, act)| act.part == NonmanualPart::Extra || !act.is_listed())
+        .map(|(_, act)| act.name())
+        .collect();
+    unknown.sort_unstable();
+    unknown.dedup();
+    if !unknown.is_empty() {
+        let names = unknown.join(", ");
+        let remark = format!("the animator does not know these non-manuals: {names}");
+        report.warnings.push(remark);
+    }
     let acts = |part: NonmanualPart| {
         let mut all = signs.iter().flat_map(|sign| sign.nonmanual.acts());
         all.any(|(_, act)| act.part == part)

@@ -4,7 +4,7 @@
 //! after the sign. Acts of one tier that follow one another share the sign's time. The curves of head,
 //! trunk and shoulders turn joints; those of gaze, brows, lids, nose and mouth are passed on unchanged.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
 use chereme_motion::glam::{DQuat, DVec3};
 use chereme_motion::{Channel, Part, Side};
@@ -16,6 +16,9 @@ use super::plan::SignSpan;
 use super::stage::Stage;
 use super::tuned::tuned;
 use crate::outcome::Curve;
+
+/// The duration (s) of a single nod, there and back, as measured in the movement of another animator.
+const NOD: f64 = 0.62;
 
 /// One act with its times, in seconds.
 struct Timed<'a> {
@@ -43,6 +46,14 @@ impl Timed<'_> {
         let [before, after] = tuned().nonmanual.spread;
         self.from -= missing * before;
         self.to += missing * after;
+    }
+
+    /// Ends single nods after their own time, and begins them earlier if the hands leave too little time.
+    fn nod(&mut self, speed: f64) {
+        let needs = NOD * self.times as f64 / speed;
+        let missing = (needs - (self.to - self.from)).max(0.0);
+        self.from -= missing * tuned().nonmanual.spread[0];
+        self.to = self.from + needs;
     }
 
     /// Returns the elapsed share of its duration.
@@ -251,7 +262,9 @@ fn timed<'a>(
                 release: language.time_release / speed,
                 times: group.iter().filter(alike).count(),
             };
-            if waves(act) {
+            if nods_once(act) {
+                timed.nod(speed);
+            } else if waves(act) {
                 timed.stretch(speed);
             }
             all.push(timed);
@@ -273,7 +286,10 @@ fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
         if much == 0.0 {
             continue;
         }
-        let wave = (TAU * cycles(timed) * timed.share(time)).sin();
+        let wave = match nods_once(timed.act) {
+            true => (PI * timed.times as f64 * timed.share(time)).sin().abs(),
+            false => (TAU * cycles(timed) * timed.share(time)).sin(),
+        };
         let angle = |degrees: f64| (degrees * much).to_radians();
         match (timed.act.part, timed.act.code()) {
             (NonmanualPart::Head, code) => turn_head(&mut bent, code, angle, wave),
@@ -287,21 +303,27 @@ fn bent(acts: &[Timed<'_>], time: f64) -> Bent {
     bent
 }
 
-/// Returns the number of nods or shakes of an act: two per second, at least two, and at least as many as are written.
+/// Returns the number of nods or shakes of an act that repeats: two per second, at least two, and at least as many as are written.
 fn cycles(timed: &Timed<'_>) -> f64 {
     let least = timed.times.max(2) as f64;
     (2.0 * (timed.to - timed.from)).round().max(least)
 }
 
-/// Returns whether an act nods or shakes the head.
+/// Returns whether an act nods or shakes the head again and again.
 fn waves(act: &Act) -> bool {
-    act.part == NonmanualPart::Head && matches!(act.code(), "NO" | "ND" | "SH")
+    act.part == NonmanualPart::Head && matches!(act.code(), "NO" | "SH")
+}
+
+/// Returns whether an act nods the head once, down or up.
+fn nods_once(act: &Act) -> bool {
+    act.part == NonmanualPart::Head && matches!(act.code(), "ND" | "NU")
 }
 
 fn turn_head(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, wave: f64) {
     match code {
-        // `ND` is not in the list of codes, but it is used for nods.
-        "NO" | "ND" => bent.head.x += angle(11.0) * wave,
+        "NO" => bent.head.x += angle(11.0) * wave,
+        "ND" => bent.head.x += angle(14.0) * wave,
+        "NU" => bent.head.x -= angle(12.0) * wave,
         "SH" => bent.head.y += angle(16.0) * wave,
         "SR" => bent.head.y -= angle(28.0),
         "SL" => bent.head.y += angle(28.0),
@@ -322,7 +344,7 @@ fn turn_head(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, wave: f64)
 }
 
 fn turn_trunk(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f64) {
-    let once = (std::f64::consts::PI * share).sin();
+    let once = (PI * share).sin();
     match code {
         "RL" => bent.trunk.y += angle(14.0),
         "RR" => bent.trunk.y -= angle(14.0),
@@ -351,7 +373,7 @@ fn turn_trunk(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f6
 fn move_shoulders(bent: &mut Bent, code: &str, angle: impl Fn(f64) -> f64, share: f64) {
     let mut letters = code.chars();
     let (what, side) = (letters.next(), letters.next());
-    let once = (std::f64::consts::PI * share).sin();
+    let once = (PI * share).sin();
     for (n, own) in ['R', 'L'].into_iter().enumerate() {
         if side != Some(own) && side != Some('B') {
             continue;

@@ -9,7 +9,9 @@ use super::pace::Paces;
 use super::plan::Planner;
 use super::solve::Arm;
 use super::stage::Stage;
-use super::{Goals, NotationError, Settings, animate, frames, lay, nonmanual, standing, track};
+use super::{
+    Goals, NotationError, Settings, animate, duration, frames, lay, nonmanual, standing, track,
+};
 use crate::outcome::About;
 use crate::sources::Material;
 
@@ -75,9 +77,10 @@ impl Performer {
     pub fn begins(&self, sign: &Notated) -> Result<Clip, NotationError> {
         let (body, rate) = (&self.body, self.settings.rate.per_second());
         let language = (&self.settings.language, &self.paces);
-        let planner = Planner::new(body, language, self.stage.handedness, rate);
-        let (limits, sides) = (planner.signer.limits, planner.signer.sides);
-        let plan = planner.signs(&[sign]);
+        let planner = || Planner::new(body, language, self.stage.handedness, rate);
+        let limits = planner().signer.limits;
+        let (plan, _) = duration::plan_timed(&[sign], |signs| planner().signs(signs));
+        let sides = plan.sides;
         let total = frames(plan.end, rate)?;
         let reached = plan.signs.first().map_or(0.0, |sign| sign.from);
         let frame = ((reached * rate + 1e-6) as usize).min(total - 1);

@@ -318,7 +318,7 @@ impl<'a> Planner<'a> {
         }
     }
 
-    /// Plans signs one after the other, from rest and back to rest.
+    /// Plans signs one after the other, from rest and back to rest, each at its `speed`.
     pub(crate) fn signs(mut self, signs: &[&Notated]) -> SignPlan {
         let mut time = tuned().tempo.still;
         let parts = signs.iter().flat_map(|notated| &notated.sign.parts);
@@ -329,7 +329,7 @@ impl<'a> Planner<'a> {
             self.together = None;
             self.near = None;
             self.at_body = [None, None];
-            self.speed = self.factor(notated);
+            self.speed = notated.speed.unwrap_or(1.0);
             for part in &notated.sign.parts {
                 let began;
                 (began, time) = self.part(part, next.next(), time);
@@ -343,21 +343,6 @@ impl<'a> Planner<'a> {
         }
         self.plan.end = self.relax([true, true], time, None) + tuned().tempo.still;
         self.plan
-    }
-
-    /// Returns the factor on the speed of a whole sign, and reports one that is out of range.
-    fn factor(&mut self, notated: &Notated) -> f64 {
-        const RANGE: (f64, f64) = (0.1, 10.0);
-        let legal = |factor: &f64| factor.is_finite() && *factor > 0.0;
-        let speed = notated.speed.filter(legal).unwrap_or(1.0);
-        let asked = speed / notated.timescale.filter(legal).unwrap_or(1.0);
-        let used = asked.clamp(RANGE.0, RANGE.1);
-        if asked != used {
-            self.remark(&format!(
-                "the notation asks for another speed than can be performed: {used} times the usual one is used"
-            ));
-        }
-        used
     }
 
     pub(crate) fn remark(&mut self, text: &str) {
@@ -455,7 +440,7 @@ impl<'a> Planner<'a> {
             self.signer.language.time_end
         } else {
             self.signer.language.time_hold
-        };
+        } / self.speed;
         for n in 0..2 {
             if named[n].is_some() || who[n].is_some() {
                 self.phase(n, PhaseKind::Hold, now, now + hold, "");

@@ -1,7 +1,8 @@
 //! Tests of the tempo of movement from notation: limits of speed, and motions that are written as fast.
 
 use chereme_sign::hamnosys::{
-    Aim, BodyLocation, Contact, Each, HandClass, HandsUsed, Motion, MotionKind, Posture,
+    Act, Aim, BodyLocation, Contact, Each, HandClass, HandsUsed, Motion, MotionKind, NonmanualPart,
+    Posture,
 };
 use chereme_sign::{Component, Reading};
 
@@ -88,6 +89,74 @@ fn a_speed_of_a_whole_sign_out_of_range_is_reported() {
         assert_eq!(found.len(), usize::from(used.is_some()), "{found:?}");
         assert!(used.is_none_or(|used| found[0].contains(used)), "{found:?}");
     }
+}
+
+#[test]
+fn a_sign_lasts_as_long_as_its_notation_says_or_reports_it() {
+    let place = Some(at(BodyLocation::Chest, None));
+    let sign = notated(
+        HandsUsed::Dominant,
+        posture(HandClass::Flat, "ol", "d", place),
+        vec![directed("o"), directed("i")],
+    );
+    let lasts = |sign: &Notated| {
+        let made = animate(&[sign], &stage(Axes::Plain), &Settings::default());
+        let made = made.expect("it can be animated");
+        let mut glosses = made.notes.iter().filter(|note| note.about == About::Gloss);
+        let warned = made
+            .report
+            .warnings
+            .iter()
+            .any(|warning| warning.contains("asks for"));
+        (glosses.next().expect("a sign").span.seconds(), warned)
+    };
+    let (usual, _) = lasts(&sign);
+    // The attributes, the wanted duration, and whether it is out of reach.
+    for (speed, timescale, duration, wanted, is_far) in [
+        (Some(1.25), None, None, usual / 1.25, false),
+        (Some(0.5), None, None, usual * 2.0, false),
+        (None, Some(2.0), None, usual * 2.0, false),
+        (None, None, Some(3.0), 3.0, false),
+        (Some(0.5), None, Some(3.0), 3.0, false),
+        (None, None, Some(f64::NAN), usual, false),
+        (None, None, Some(0.01), 0.01, true),
+    ] {
+        let sign = Notated {
+            speed,
+            timescale,
+            duration,
+            ..sign.clone()
+        };
+        let (lasts, warned) = lasts(&sign);
+        assert_eq!(
+            warned, is_far,
+            "{speed:?} {timescale:?} {duration:?}: {lasts} s"
+        );
+        assert!(
+            is_far || (lasts / wanted - 1.0).abs() < 0.1,
+            "{lasts} s, not {wanted}"
+        );
+    }
+}
+
+#[test]
+fn acts_that_the_animator_does_not_know_are_reported() {
+    let mut sign = notated(HandsUsed::Dominant, Posture::default(), vec![]);
+    for (part, tag) in [
+        (NonmanualPart::Extra, "X01"),
+        (NonmanualPart::Head, "QQ"),
+        (NonmanualPart::Head, "NU"),
+    ] {
+        sign.nonmanual.push(part.tier(), vec![Act::new(part, tag)]);
+    }
+    let made = animate(&[&sign], &stage(Axes::Plain), &Settings::default()).expect("animated");
+    let reported = made.report.warnings.iter();
+    let reported: Vec<_> = reported.filter(|warning| warning.contains("non-manuals")).collect();
+    assert_eq!(reported.len(), 1);
+    assert!(
+        reported[0].ends_with(": extra.X01, head.QQ"),
+        "{reported:?}"
+    );
 }
 
 #[test]

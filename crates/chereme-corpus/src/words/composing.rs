@@ -300,6 +300,14 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "la notation demande une vitesse qui ne peut être exécutée : {used} fois la vitesse habituelle est prise",
     ),
     (
+        "{gloss} lasts {lasts} s, and its notation asks for {asked} s",
+        "{gloss} dure {lasts} s, et sa notation demande {asked} s",
+    ),
+    (
+        "the animator does not know these non-manuals: {names}",
+        "l’animateur ne connaît pas ces non-manuels : {names}",
+    ),
+    (
         "the wrist bends no farther",
         "le poignet ne se plie pas plus",
     ),

@@ -167,7 +167,7 @@ impl Act {
         format!("{part}.{}", self.code())
     }
 
-    /// Returns whether SiGML lists its code for the part.
+    /// Returns whether its code is a known one of the part.
     #[must_use]
     pub fn is_listed(&self) -> bool {
         self.part.is_listed(self.code())
@@ -248,13 +248,14 @@ impl NonmanualPart {
         }
     }
 
-    /// Returns whether SiGML lists a code for the part; always true for parts with free text.
+    /// Returns whether SiGML, or its reference engine (`ND` and `NU`), lists a code for the part; always true for parts
+    /// with free text.
     #[must_use]
     pub fn is_listed(self, code: &str) -> bool {
         let codes = match self {
             Self::Shoulders => "UL UR UB HL HR HB SL SR SB",
             Self::Body => "RL RR TL TR TF TB SI HE ST RD",
-            Self::Head => "NO SH SR SL TR TL NF NB PF PB LI",
+            Self::Head => "NO ND NU SH SR SL TR TL NF NB PF PB LI",
             Self::Gaze => "AD FR HD HI HC UP DN LE RI NO RO LU LD RU RD",
             Self::Brows => "RB RR RL FU",
             Self::Lids => "WB WR WL SB SR SL CB CR CL TB TR TL BB",
@@ -303,7 +304,7 @@ mod tests {
         assert!(listed(NonmanualPart::Head, "SH_shaking_left_and_right"));
         assert!(listed(NonmanualPart::MouthGesture, "T17"));
         for (part, odd) in [
-            (NonmanualPart::Head, "ND"),
+            (NonmanualPart::Head, "NX"),
             (NonmanualPart::Brows, "DN"),
             (NonmanualPart::MouthGesture, "T18"),
             (NonmanualPart::MouthGesture, "L00"),

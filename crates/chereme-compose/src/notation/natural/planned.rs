@@ -336,7 +336,7 @@ fn acts_of_head_and_trunk_turn_to_the_side_that_they_name() {
         assert!(moved.dot(to) > 0.1 && bent.head == -bent.neck, "{tag}");
     }
     // Two nods or shakes a second: the first swing goes down, or to the left, the second one back.
-    for (tag, of, to) in [("NO", out, -up), ("ND", out, -up), ("SH", out, left)] {
+    for (tag, of, to) in [("NO", out, -up), ("SH", out, left)] {
         for (time, sign) in [(1.125, 1.0), (1.375, -1.0), (1.625, 1.0), (2.875, -1.0)] {
             let (bent, _) = bent(NonmanualPart::Head, tag, time);
             let moved = DQuat::from_scaled_axis(bent.head) * of - of;
@@ -344,5 +344,14 @@ fn acts_of_head_and_trunk_turn_to_the_side_that_they_name() {
         }
         let (bent, _) = bent(NonmanualPart::Head, tag, 2.0);
         assert!(bent.head.length() < 1e-9, "{tag}");
+    }
+    // A single nod goes one way and comes back, and then the head rests.
+    for (tag, to) in [("ND", -up), ("NU", up)] {
+        for (time, moves) in [(1.15, true), (1.31, true), (1.5, true), (2.0, false)] {
+            let (bent, _) = bent(NonmanualPart::Head, tag, time);
+            let moved = DQuat::from_scaled_axis(bent.head) * out - out;
+            assert_eq!(moved.dot(to) > 0.1, moves, "{tag} at {time}: {moved}");
+            assert!(moved.dot(to) > -1e-9, "{tag} at {time}: {moved}");
+        }
     }
 }

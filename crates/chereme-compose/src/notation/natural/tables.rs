@@ -214,7 +214,7 @@ fn golden_acts_of_head_trunk_and_shoulders() {
         (
             NonmanualPart::Head,
             &[
-                "NO", "ND", "SH", "SR", "SL", "TR", "TL", "NF", "NB", "PF", "PB", "LI",
+                "NO", "ND", "SH", "SR", "SL", "TR", "TL", "NF", "NB", "PF", "PB", "LI", "NU",
             ],
         ),
         (
