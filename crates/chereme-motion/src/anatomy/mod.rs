@@ -118,6 +118,7 @@ pub struct Anatomy {
     measures: Option<Measures>,
     head: Option<landmarks::HeadFrame>,
     elbows: [Option<DVec3>; 2],
+    reference: ModelPose,
     posed: bool,
     /// The local rotations of the reference posture, if it is not the rest pose.
     reference: Option<Vec<DQuat>>,
@@ -165,6 +166,7 @@ impl Anatomy {
             measures: None,
             head: None,
             elbows: [None, None],
+            reference: skeleton.rest_model_pose(),
             posed: false,
             reference: None,
             far_ends: Vec::new(),
@@ -181,7 +183,8 @@ impl Anatomy {
                 .and_then(|hand| skeleton.joint(hand).tip)
                 .filter(|tip| tip.try_normalize().is_some());
         }
-        anatomy.with_reference(skeleton, &skeleton.rest_model_pose())
+        let rest = anatomy.reference.clone();
+        anatomy.with_reference(skeleton, &rest)
     }
 
     /// Returns the same anatomy, measured in the posture `model` instead of the rest pose.
@@ -205,6 +208,7 @@ impl Anatomy {
             .zip(self.measures)
             .and_then(|(axes, measures)| landmarks::HeadFrame::of(&self, model, axes, &measures));
         self.elbows = Side::BOTH.map(|side| self.elbow_at(side, model, axes?[2]));
+        self.reference.clone_from(model);
         self
     }
 
@@ -278,6 +282,12 @@ impl Anatomy {
     #[must_use]
     pub fn is_posed(&self) -> bool {
         self.posed
+    }
+
+    /// Returns the posture in which the body was measured.
+    #[must_use]
+    pub fn reference_pose(&self) -> &ModelPose {
+        &self.reference
     }
 
     /// Returns the size of the body; `None` if the skeleton has no arm, leg or hand.
