@@ -232,6 +232,20 @@ pub enum Cause {
         /// The time that it takes people, in seconds.
         least: f64,
     },
+    /// A step would move hips, wrists or feet much faster than its source does.
+    #[error(
+        "too fast: {speed:.1} m/s at {part}, {added:.1} m/s more than before, and at most {most} m/s can be added"
+    )]
+    Rushed {
+        /// The part of the body: `the hips`, `the wrists`, `the feet`.
+        part: &'static str,
+        /// Its greatest speed after the step, in metres per second.
+        speed: f64,
+        /// The difference from its greatest speed before.
+        added: f64,
+        /// The greatest difference allowed.
+        most: f64,
+    },
     /// Two pieces do not fit together: something would jump at the join.
     #[error("the two pieces do not meet: {what} would leap by {distance:.2} m, at {speed:.0} m/s")]
     Torn {
@@ -341,6 +355,9 @@ impl Cause {
             Self::NothingFound(_) => "loosen it",
             Self::NothingToTake { .. } => "choose another sign",
             Self::Cut { .. } => "name times within it",
+            Self::Rushed { .. } => {
+                "give it more time, or cut wrong first or last frames off before (`| trim`)"
+            }
             Self::Torn { .. } => {
                 "cut wrong first or last frames off (`| trim`, or `| span 0.2s..1.5s`), or give the transition more time \
                  (`then via 0.4s`, `repeat 2 gap 0.3s`)"

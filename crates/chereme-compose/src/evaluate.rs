@@ -15,11 +15,12 @@ use crate::recipe::*;
 use crate::resolve::{Input, JOIN, Resolved, SIGN};
 use crate::simplify::{self, Planned};
 use crate::sources::Material;
+use crate::speed::{self, StepSpeeds};
 use crate::work::{Group, Work};
 
 /// The version of the evaluator. It rises whenever the same resolved recipe gives different movement, so that a
 /// stored sign can be distinguished from one that would be generated today.
-pub const ENGINE: u32 = 23;
+pub const ENGINE: u32 = 24;
 
 /// Generates the movement of a recipe.
 ///
@@ -318,6 +319,7 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Done, Cause> {
         let mut given = self.given(path, text);
         let operator = step.operator();
+        let before = StepSpeeds::peaks_of(work);
         let longer = operator.make_time(work)?;
         let touched = operator.contacts(work.handedness);
         let mut touched = touched.map(|(carry, keep)| {
@@ -335,6 +337,9 @@ impl<'a> Evaluator<'a> {
             done.lost.extend(contact::lost(before, work, *carry));
             done.warnings.extend(contact::long_repairs(before, text));
         }
+        let added = speed::check_added(before, StepSpeeds::peaks_of(work))?;
+        let warnings = added.iter().map(|added| format!("{text}: {added}"));
+        done.warnings.extend(warnings);
         done.did.append(&mut given.aside);
         Ok(done)
     }

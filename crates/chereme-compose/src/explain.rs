@@ -45,7 +45,7 @@ impl Display for Report {
         for join in &self.joins {
             writeln!(
                 f,
-                "  {:5} {}–{}: position {:.1} mm, velocity {:.2} m/s, acceleration {:.0} m/s²   ({})",
+                "  {:5} {}–{}: position {:.1} mm, change of velocity {:.2} m/s, of acceleration {:.0} m/s²   ({})",
                 join.hand.name(),
                 join.span.start(),
                 join.span.end(),

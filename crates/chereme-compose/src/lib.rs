@@ -60,6 +60,7 @@ pub mod recipe;
 mod resolve;
 mod simplify;
 pub mod sources;
+mod speed;
 mod stroke;
 #[cfg(test)]
 mod testing;

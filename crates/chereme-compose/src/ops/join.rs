@@ -6,7 +6,7 @@ use chereme_motion::{Part, Side};
 use crate::course::{Course, Courses};
 use crate::error::Cause;
 use crate::outcome::{About, Curve, JoinReport, Note};
-use crate::work::{Group, Work};
+use crate::work::{Columns, Group, Work};
 
 /// The most joints times frames of a result: about 300 MB of rotations.
 const MOST_CELLS: usize = 10_000_000;
@@ -26,6 +26,7 @@ pub(crate) struct Done {
     pub(crate) did: Vec<String>,
     pub(crate) joins: Vec<JoinReport>,
     pub(crate) contacts: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
 /// The frames at which the channels of one hand leave the first movement and enter the second.
@@ -72,16 +73,18 @@ impl Seam {
 /// Appends `second` to `first`; both have the same skeleton and rate, and at least one frame.
 ///
 /// Each channel follows the first up to its cut, goes to the second by its course, and follows the
-/// second from its cut on.
+/// second from its cut on. Joints above the hips stay as they are at the first's cut, and the hips make up for that, so
+/// that their place and rotation in model space are blended.
 pub(crate) fn join(
     first: &mut Work,
-    second: Work,
+    mut second: Work,
     seam: &Seam,
     courses: &Courses,
     what: &str,
 ) -> Result<Vec<JoinReport>, Cause> {
     let frames = seam.offset + second.frames;
     check_length(first, frames)?;
+    hold_above_hips(first, &mut second, seam.body.leave);
     let groups = crate::work::groups(&first.skeleton, &first.anatomy);
     for (joint, group) in groups.iter().enumerate() {
         let cut = seam.cut(*group);
@@ -114,6 +117,64 @@ pub(crate) fn join(
     let [position, velocity, _] = breaks(first, trunk.unwrap_or(0), seam.body, seam.offset);
     whole(|| "the body".to_owned(), position, velocity)?;
     Ok(reports)
+}
+
+/// Gives the joints above the hips of `second` the local place and rotation that they have at a frame of `first`; the
+/// joints below them keep their place and rotation in model space.
+fn hold_above_hips(first: &Work, second: &mut Work, frame: usize) {
+    let skeleton = &first.skeleton;
+    let Some(hips) = first.anatomy.joint(Part::Hips) else {
+        return;
+    };
+    let mut above: Vec<usize> = skeleton.ancestors(hips).skip(1).collect();
+    above.reverse();
+    let held = |joint: usize| {
+        let place = first.translation(joint, frame);
+        (place, first.channels[joint].rotations[frame])
+    };
+    let as_held = |joint: &usize| {
+        let (place, rotation) = held(*joint);
+        let mut frames = 0..second.frames;
+        frames.all(|frame| {
+            let own = second.channels[*joint].rotations[frame];
+            (second.translation(*joint, frame), own) == (place, rotation)
+        })
+    };
+    if above.iter().all(as_held) {
+        return;
+    }
+    let before = Columns::of(second, above.iter().copied());
+    let mut now = vec![(DVec3::ZERO, DQuat::IDENTITY); skeleton.len()];
+    for &joint in &above {
+        let (place, rotation) = held(joint);
+        let (start, turned) = skeleton
+            .parent(joint)
+            .map_or(now[joint], |parent| now[parent]);
+        now[joint] = (start + turned * place, (turned * rotation).normalize());
+    }
+    for joint in 0..skeleton.len() {
+        let parent = skeleton.parent(joint);
+        if above.contains(&joint) {
+            let (place, rotation) = held(joint);
+            let channel = &mut second.channels[joint];
+            channel.rotations.fill(rotation);
+            channel.translations = Some(vec![place; second.frames]);
+        } else if let Some(parent) = parent.filter(|parent| above.contains(parent)) {
+            let (start, turned) = now[parent];
+            let back = turned.inverse();
+            let (starts, turns) = (before.positions(parent), before.rotations(parent));
+            let places = (0..second.frames).map(|frame| {
+                let place = second.translation(joint, frame);
+                back * (starts[frame] + turns[frame] * place - start)
+            });
+            let places = places.collect();
+            let channel = &mut second.channels[joint];
+            channel.translations = Some(places);
+            for (rotation, turn) in channel.rotations.iter_mut().zip(turns) {
+                *rotation = (back * *turn * *rotation).normalize();
+            }
+        }
+    }
 }
 
 /// The largest jump at a join, in metres and in metres per second.

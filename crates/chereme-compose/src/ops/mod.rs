@@ -154,6 +154,7 @@ impl From<join::Done> for Done {
             did: done.did,
             joins: done.joins,
             lost: done.contacts,
+            warnings: done.warnings,
             ..Self::default()
         }
     }

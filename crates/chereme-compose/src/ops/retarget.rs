@@ -23,15 +23,29 @@ pub(crate) struct Touching {
     pub(crate) lost: Vec<String>,
 }
 
+/// The body that receives movement.
+pub(crate) struct Onto<'a> {
+    pub(crate) skeleton: &'a Arc<Skeleton>,
+    pub(crate) anatomy: &'a Arc<Anatomy>,
+    /// The posture of joints that the movement says nothing about.
+    pub(crate) idle: Pose,
+}
+
+impl<'a> Onto<'a> {
+    /// Returns the body with its rest pose for idle joints.
+    pub(crate) fn at_rest(skeleton: &'a Arc<Skeleton>, anatomy: &'a Arc<Anatomy>) -> Self {
+        Self {
+            skeleton,
+            anatomy,
+            idle: skeleton.rest_pose(),
+        }
+    }
+}
+
 /// Transfers movement to another skeleton, and moves wrists a little, so that hands touch what they touched.
-pub(crate) fn touching(
-    work: &Work,
-    skeleton: &Arc<Skeleton>,
-    anatomy: &Arc<Anatomy>,
-    operator: &str,
-) -> Result<Touching, Cause> {
+pub(crate) fn touching(work: &Work, onto: &Onto<'_>, operator: &str) -> Result<Touching, Cause> {
     let touched = contact::touches(work);
-    let mut out = retarget(work, skeleton, anatomy)?;
+    let mut out = retarget(work, onto)?;
     let mut touched = touched.on(&out);
     let keep = Keep::All(&Side::BOTH);
     let kept = contact::mend(&mut out, &mut touched, keep, operator);
@@ -47,13 +61,11 @@ pub(crate) fn touching(
 ///
 /// Each part has the directions of its counterpart in model space: its bone and a direction across it (that of the
 /// elbow, out of the palm, forward from the body) point where the counterpart's point, whatever the rest poses. Wrists
-/// keep their distance from the shoulders' middle in arms' lengths, fingers keep their joint angles, the root's path is
-/// scaled by the legs' length, and joints that are not parts stay at rest.
-pub(crate) fn retarget(
-    work: &Work,
-    skeleton: &Arc<Skeleton>,
-    anatomy: &Arc<Anatomy>,
-) -> Result<Work, Cause> {
+/// keep their distance from the shoulders' middle in arms' lengths, fingers keep their joint angles and thumbs the
+/// directions of their bones, the root's path is scaled by the legs' length, and joints that have no counterpart stay in
+/// their idle posture.
+pub(crate) fn retarget(work: &Work, onto: &Onto<'_>) -> Result<Work, Cause> {
+    let (skeleton, anatomy) = (onto.skeleton, onto.anatomy);
     for side in Side::BOTH {
         if anatomy.arm(side).is_some() && work.anatomy.arm(side).is_none() {
             return Err(Cause::NoArm(side));
@@ -65,9 +77,10 @@ pub(crate) fn retarget(
         channels: skeleton
             .joints()
             .iter()
-            .map(|joint| Channel {
+            .zip(&onto.idle.translations)
+            .map(|(joint, &place)| Channel {
                 rotations: vec![joint.rest; work.frames],
-                translations: None,
+                translations: (place != joint.offset).then(|| vec![place; work.frames]),
             })
             .collect(),
         ..work.clone()
@@ -77,30 +90,28 @@ pub(crate) fn retarget(
         work,
         pairs.iter().flatten().map(|&(from, _)| from).chain([0]),
     );
-    let there = Body {
-        anatomy: &work.anatomy,
-        rest: work.skeleton.rest_model_pose(),
-    };
-    let here = Body {
-        anatomy,
-        rest: skeleton.rest_model_pose(),
-    };
+    let [there, here] =
+        [(&work.skeleton, &work.anatomy), (skeleton, anatomy)].map(|(skeleton, anatomy)| Body {
+            skeleton,
+            anatomy,
+            rest: skeleton.rest_model_pose(),
+        });
     let mut model: Vec<Vec<DQuat>> = Vec::with_capacity(skeleton.len());
     for (joint, pair) in pairs.iter().enumerate() {
         let above = skeleton.parent(joint).map(|parent| &model[parent]);
         let parent = |frame: usize| above.map_or(DQuat::IDENTITY, |column| column[frame]);
-        let rest = skeleton.joint(joint).rest;
+        let idle = onto.idle.rotations[joint];
         let column: Vec<DQuat> = match *pair {
             Some((from, part)) => {
-                let back = there.rest.rotation(from).inverse();
-                let onto = even(&there, &here, part) * here.rest.rotation(joint);
+                let back = there.posture(part).rotation(from).inverse();
+                let onto = even(&there, &here, part) * here.posture(part).rotation(joint);
                 let turned = columns.rotations(from);
                 turned
                     .iter()
                     .map(|r| (*r * back * onto).normalize())
                     .collect()
             }
-            None => (0..work.frames).map(|frame| parent(frame) * rest).collect(),
+            None => (0..work.frames).map(|frame| parent(frame) * idle).collect(),
         };
         let local =
             (0..work.frames).map(|frame| (parent(frame).inverse() * column[frame]).normalize());
@@ -127,7 +138,7 @@ fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usi
     pairs
 }
 
-/// The directions of a part at rest in model space: along its bone, and one across it.
+/// The directions of a part in a body's posture, in model space: along its bone, and one across it.
 struct Axes {
     along: DVec3,
     across: Option<DVec3>,
@@ -135,16 +146,21 @@ struct Axes {
 
 impl Axes {
     /// Returns the axes of a limb's part; `None` for a part of the trunk, which uses the body's axes.
-    fn of(anatomy: &Anatomy, rest: &ModelPose, part: Part) -> Option<Self> {
-        let at = |part| anatomy.joint(part).map(|joint| rest.position(joint));
+    fn of(body: &Body<'_>, part: Part) -> Option<Self> {
+        let (anatomy, model) = (body.anatomy, body.posture(part));
+        let at = |part| anatomy.joint(part).map(|joint| model.position(joint));
         let bone = |next: Part| (at(next)? - at(part)?).try_normalize();
-        let body = anatomy.body_frame(rest)?;
+        let trunk = anatomy.body_frame(model)?;
         let elbow = |side| {
             let upper = anatomy.joint(Part::UpperArm(side))?;
-            Some(rest.rotation(upper) * anatomy.elbow(side)?)
+            Some(model.rotation(upper) * anatomy.elbow(side)?)
+        };
+        let tip = || {
+            let joint = anatomy.joint(part)?;
+            (model.rotation(joint) * last_bone(body.skeleton, anatomy, joint)?).try_normalize()
         };
         let (along, across) = match part {
-            Part::Clavicle(side) => (bone(Part::UpperArm(side))?, Some(body.up)),
+            Part::Clavicle(side) => (bone(Part::UpperArm(side))?, Some(trunk.up)),
             Part::UpperArm(side) => (bone(Part::Forearm(side))?, elbow(side)),
             Part::Forearm(side) => {
                 let along = bone(Part::Hand(side))?;
@@ -156,11 +172,16 @@ impl Axes {
                 )
             }
             Part::Hand(side) => {
-                let palm = anatomy.palm_normal(side, rest);
-                (anatomy.hand_direction(side, rest)?, palm)
+                let palm = anatomy.palm_normal(side, model);
+                (anatomy.hand_direction(side, model)?, palm)
             }
-            Part::Thigh(side) => (bone(Part::Shin(side))?, Some(body.forward)),
-            Part::Shin(side) => (bone(Part::Foot(side))?, Some(body.forward)),
+            Part::Thigh(side) => (bone(Part::Shin(side))?, Some(trunk.forward)),
+            Part::Shin(side) => (bone(Part::Foot(side))?, Some(trunk.forward)),
+            Part::Foot(side) => {
+                let along = bone(Part::Toes(side)).or_else(tip);
+                (along.unwrap_or(trunk.forward), Some(trunk.up))
+            }
+            Part::Toes(_) => (tip().unwrap_or(trunk.forward), Some(trunk.up)),
             _ => return None,
         };
         Some(Self { along, across })
@@ -176,13 +197,34 @@ impl Axes {
     }
 }
 
+/// Returns the end of a limb's last bone in the space of its joint: the tip, else the only joint that hangs on it.
+fn last_bone(skeleton: &Skeleton, anatomy: &Anatomy, joint: usize) -> Option<DVec3> {
+    let below = match skeleton.children(joint) {
+        [child] => Some(skeleton.joint(*child).offset),
+        _ => None,
+    };
+    anatomy.tip(skeleton, joint).or(below)
+}
+
 /// One of the two bodies.
 struct Body<'a> {
+    skeleton: &'a Skeleton,
     anatomy: &'a Anatomy,
     rest: ModelPose,
 }
 
 impl Body<'_> {
+    /// Returns the posture in which a part is compared with that of another body: at rest, but standing for the legs.
+    /// Where a file keeps every bone along one axis, legs point up at rest, and nothing shows which way feet point.
+    fn posture(&self, part: Part) -> &ModelPose {
+        match part {
+            Part::Thigh(_) | Part::Shin(_) | Part::Foot(_) | Part::Toes(_) => {
+                self.anatomy.reference_pose()
+            }
+            _ => &self.rest,
+        }
+    }
+
     /// Returns the trunk's rotation at rest, with up along the spine because shoulders may be drawn forward.
     fn trunk(&self) -> Option<DQuat> {
         let at = |part| {
@@ -204,7 +246,7 @@ fn even(from: &Body<'_>, to: &Body<'_>, part: Part) -> DQuat {
         (Some(from), Some(to)) => from * to.inverse(),
         _ => DQuat::IDENTITY,
     };
-    let axes = |body: &Body<'_>| Axes::of(body.anatomy, &body.rest, part);
+    let axes = |body: &Body<'_>| Axes::of(body, part);
     let (Some(there), Some(here)) = (axes(from), axes(to)) else {
         return bodies;
     };
@@ -294,7 +336,7 @@ fn fingers(work: &Work, out: &mut Work) {
             continue;
         }
         let mut source: Pose = work.pose(0);
-        let mut target = out.skeleton.rest_pose();
+        let mut target = out.pose(0);
         for frame in 0..work.frames {
             for &joint in &here {
                 source.rotations[joint] = work.channels[joint].rotations[frame];
@@ -310,6 +352,62 @@ fn fingers(work: &Work, out: &mut Work) {
             for &joint in &there {
                 out.channels[joint].rotations[frame] = target.rotations[joint];
             }
+        }
+        thumb(work, out, side);
+    }
+}
+
+/// A joint of a digit, and the joint in which its bone ends if that hangs on it directly.
+#[derive(Clone, Copy)]
+struct DigitBone {
+    joint: usize,
+    next: Option<usize>,
+}
+
+impl DigitBone {
+    fn thumb(work: &Work, side: Side) -> [Option<Self>; 3] {
+        let found = |n: u8| work.anatomy.joint(Part::Thumb(side, n));
+        [0, 1, 2].map(|n| {
+            let joint = found(n)?;
+            let next = (n + 1..3).find_map(found);
+            let next = next.filter(|&next| work.skeleton.parent(next) == Some(joint));
+            Some(Self { joint, next })
+        })
+    }
+
+    /// Returns the direction of the bone in the space of its joint.
+    fn direction(&self, work: &Work, frame: usize) -> Option<DVec3> {
+        let end = match self.next {
+            Some(next) => Some(work.translation(next, frame)),
+            None => last_bone(&work.skeleton, &work.anatomy, self.joint),
+        };
+        end?.try_normalize()
+    }
+}
+
+/// Turns the bones of a thumb to the directions that they have in the source: where two skeletons keep a thumb
+/// differently at rest, equal angles do not turn it about equal axes.
+fn thumb(work: &Work, out: &mut Work, side: Side) {
+    let from = DigitBone::thumb(work, side);
+    let there = Columns::of(work, from.iter().flatten().map(|bone| bone.joint));
+    for (from, to) in from.into_iter().zip(DigitBone::thumb(out, side)) {
+        let (Some(from), Some(to)) = (from, to) else {
+            continue;
+        };
+        let Some(parent) = out.skeleton.parent(to.joint) else {
+            continue;
+        };
+        let here = Columns::of(out, [parent]);
+        for frame in 0..work.frames {
+            let wanted = from.direction(work, frame);
+            let Some((wanted, bone)) = wanted.zip(to.direction(out, frame)) else {
+                break;
+            };
+            let above = here.rotations(parent)[frame];
+            let own = above * out.channels[to.joint].rotations[frame];
+            let wanted = there.rotations(from.joint)[frame] * wanted;
+            let turn = DQuat::from_rotation_arc((own * bone).normalize(), wanted.normalize());
+            out.channels[to.joint].rotations[frame] = (above.inverse() * turn * own).normalize();
         }
     }
 }

@@ -1,17 +1,19 @@
 //! `A then B`: joins one piece of movement to another on the first one's body.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use chereme_motion::glam::{DQuat, DVec3};
-use chereme_motion::{Interpolation, ModelPose, Part, Side};
+use chereme_motion::{Channel, Interpolation, ModelPose, Part, Side};
 use chereme_sign::Component;
 
 use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::cut;
 use crate::ops::join::{self, Cut, Seam};
-use crate::ops::retarget;
+use crate::ops::retarget::{self, Onto};
 use crate::outcome::{About, Note};
+use crate::speed::{self, StepSpeeds};
 use crate::units::Seconds;
 use crate::work::{Columns, Group, Work};
 
@@ -30,17 +32,24 @@ pub(crate) fn then(
     operator: &str,
 ) -> Result<join::Done, Cause> {
     let (mut did, mut contacts) = (Vec::new(), Vec::new());
-    let mut next = if one_body(work, &next) {
-        Work {
-            skeleton: Arc::clone(&work.skeleton),
-            ..next
+    let mut warnings = Vec::new();
+    let mut next = match on_same_body(work, &next) {
+        Some(next) => next,
+        None => {
+            did.push("the second signer's movement is put on the first one's body".to_owned());
+            let before = StepSpeeds::measure(&next);
+            let onto = Onto {
+                skeleton: &work.skeleton,
+                anatomy: &work.anatomy,
+                idle: work.pose(work.frames - 1),
+            };
+            let done = retarget::touching(&next, &onto, operator)?;
+            did.extend(done.kept);
+            contacts = done.lost;
+            let (before, after) = StepSpeeds::measure(&done.work).most_added(&before);
+            warnings.extend(speed::check_added(before, after)?);
+            done.work
         }
-    } else {
-        did.push("the second signer's movement is put on the first one's body".to_owned());
-        let done = retarget::touching(&next, &work.skeleton, &work.anatomy, operator)?;
-        did.extend(done.kept);
-        contacts = done.lost;
-        done.work
     };
     retarget::resample(&mut next, work.rate);
     let ends = without_rest(work, &mut next)?;
@@ -74,11 +83,28 @@ pub(crate) fn then(
             frames
         ));
     }
+    let cuts = || seam.hands.into_iter().chain([seam.body]);
+    let leaves = cuts().map(|cut| cut.leave);
+    let enters = cuts().map(|cut| cut.enter);
+    let (latest, earliest) = (
+        leaves.clone().fold(0, usize::max),
+        enters.clone().fold(next.frames, usize::min),
+    );
+    let pieces = speed::faster(
+        StepSpeeds::measure(work).peaks(0..latest),
+        StepSpeeds::measure(&next).peaks(earliest..next.frames),
+    );
     let joins = join::join(work, next, &seam, courses, operator)?;
+    let between = leaves.fold(latest, usize::min)..seam.offset + enters.fold(earliest, usize::max);
+    let speeds = StepSpeeds::measure(work);
+    did.extend(speeds.between_pieces(between.clone()));
+    warnings.extend(speed::check_added(pieces, speeds.peaks(between))?);
+    let warnings = warnings.iter().map(|added| format!("{operator}: {added}"));
     Ok(join::Done {
         did,
         joins,
         contacts,
+        warnings: warnings.collect(),
     })
 }
 
@@ -121,48 +147,117 @@ fn without_rest(first: &mut Work, second: &mut Work) -> Result<Ends, Cause> {
     Ok(ends)
 }
 
-/// Returns whether two skeletons are the same body: they may differ only in offsets of joints whose positions both
-/// movements give.
-fn one_body(first: &Work, second: &Work) -> bool {
+/// The greatest difference in length between the bones of one signer in two recordings, as a share of the bone.
+const SAME_LENGTH: f64 = 0.1;
+/// The greatest angle between these bones, or between the rest poses of a joint, in radians.
+const SAME_ANGLE: f64 = 0.035;
+
+/// Returns the second movement on the first one's skeleton, with the same local rotations, if both skeletons are the
+/// same body: joints of equal names, parents and offsets, except for offsets of joints whose positions both movements
+/// give. The bones of one signer may differ a little, and joints that are no parts of the body, such as markers, may be
+/// missing: they stay as they are at the end of the first.
+fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
     let (a, b) = (&first.skeleton, &second.skeleton);
-    if Arc::ptr_eq(a, b) || a == b {
-        return true;
+    let on_first = |channels: Vec<Channel>| Work {
+        skeleton: Arc::clone(a),
+        anatomy: Arc::clone(&first.anatomy),
+        channels,
+        ..second.clone()
+    };
+    if a == b {
+        return Some(on_first(second.channels.clone()));
     }
-    let places = |work: &Work, joint: usize| work.channels[joint].translations.is_some();
-    a.len() == b.len()
-        && (0..a.len()).all(|n| {
-            let (one, other) = (a.joint(n), b.joint(n));
-            let placed = places(first, n) && places(second, n);
-            (&one.name, one.parent, one.rest) == (&other.name, other.parent, other.rest)
-                && (placed || one.offset == other.offset)
-        })
+    let same_signer = first.signer.is_some() && first.signer == second.signer;
+    if a.len() != b.len() && !same_signer {
+        return None;
+    }
+    let names = b.joints().iter().enumerate();
+    let names: BTreeMap<&str, usize> = names.map(|(m, joint)| (joint.name.as_str(), m)).collect();
+    let hips = first.anatomy.joint(Part::Hips).unwrap_or(0);
+    let end = first.pose(first.frames - 1);
+    let constant = |place: DVec3, offset: DVec3| {
+        let moved = place != offset;
+        moved.then(|| vec![place; second.frames])
+    };
+    let mut counterparts: Vec<Option<usize>> = Vec::with_capacity(a.len());
+    let mut channels = Vec::with_capacity(a.len());
+    for (n, joint) in a.joints().iter().enumerate() {
+        let place = end.translations[n];
+        let Some(&m) = names.get(joint.name.as_str()) else {
+            if !same_signer || first.anatomy.part_of(n).is_some() {
+                return None;
+            }
+            counterparts.push(None);
+            channels.push(Channel {
+                rotations: vec![end.rotations[n]; second.frames],
+                translations: constant(place, joint.offset),
+            });
+            continue;
+        };
+        let other = b.joint(m);
+        if joint.parent.map(|parent| counterparts[parent]) != other.parent.map(Some) {
+            return None;
+        }
+        counterparts.push(Some(m));
+        let mut channel = second.channels[m].clone();
+        let given = first.channels[n].translations.is_some() && channel.translations.is_some();
+        if joint.rest != other.rest || !(given || joint.offset == other.offset) {
+            let bone = second.translation(m, 0);
+            let [one, two] = [place, bone].map(DVec3::normalize_or_zero);
+            let longer = (place.length() - bone.length()).abs();
+            let alike_bones =
+                longer <= SAME_LENGTH * place.length() && one.distance(two) < SAME_ANGLE;
+            let leads = a.ancestors(hips).any(|above| above == n);
+            let alike = joint.rest.angle_between(other.rest) < SAME_ANGLE && (leads || alike_bones);
+            if !same_signer || !alike {
+                return None;
+            }
+            channel.translations = if leads {
+                let places = (0..second.frames).map(|frame| second.translation(m, frame));
+                Some(places.collect())
+            } else {
+                constant(place, joint.offset)
+            };
+        }
+        channels.push(channel);
+    }
+    Some(on_first(channels))
 }
 
-/// Returns the position of a body in a posture, and the direction of its front if its joints show it.
+/// Returns the spot on which a body stands in a posture, and the direction that it faces there if its joints show it.
+///
+/// The spot lies between the feet, at the usual height of the lower one. Without feet it is the place of the hips, of
+/// the trunk, or of any part that there is.
 fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
     let model = ModelPose::of(&work.skeleton, &work.pose(frame));
-    if let Some(body) = work.anatomy.body_frame(&model) {
-        return (body.origin, Some(body.forward));
-    }
-    let arms = Side::BOTH.map(|side| work.anatomy.joint(Part::UpperArm(side)));
-    let parts = [Part::Hips, Part::Chest, Part::Head].map(|part| work.anatomy.joint(part));
-    let at = |joint: usize| model.position(joint);
-    let origin = match arms {
-        [Some(right), Some(left)] => at(right).midpoint(at(left)),
-        [one, other] => {
-            let known = one.or(other).or(parts.into_iter().flatten().next());
-            at(known.unwrap_or(0))
-        }
+    let pair = |part: fn(Side) -> Part| {
+        let joints = Side::BOTH.map(|side| work.anatomy.joint(part(side)));
+        Some((joints[0]?, joints[1]?))
     };
-    (origin, None)
+    let body = work.anatomy.body_frame(&model);
+    let thighs = pair(Part::Thigh).and_then(|(right, left)| {
+        let left = model.position(left) - model.position(right);
+        left.cross(DVec3::Y).try_normalize()
+    });
+    let forward = thighs.or(body.map(|body| body.forward));
+    if let Some((right, left)) = pair(Part::Foot) {
+        let columns = Columns::of(work, [right, left]);
+        let [a, b] = [right, left].map(|foot| columns.positions(foot));
+        let mut heights: Vec<f64> = a.iter().zip(b).map(|(a, b)| a.y.min(b.y)).collect();
+        heights.sort_by(f64::total_cmp);
+        let between = a[frame].midpoint(b[frame]);
+        return (between.with_y(heights[heights.len() / 2]), forward);
+    }
+    let arms = Side::BOTH.map(|side| Part::UpperArm(side));
+    let parts = [Part::Hips, Part::Chest, Part::Head]
+        .into_iter()
+        .chain(arms);
+    let known = parts.filter_map(|part| work.anatomy.joint(part)).next();
+    (model.position(known.unwrap_or(0)), forward)
 }
 
-/// The difference of two bodies' heights, in metres, above which they stand on different floors: nobody sits down
-/// between signs.
-const FLOOR: f64 = 0.6;
-
-/// Rotates and moves the second movement on the floor so that it starts at the position where the first ends, facing
-/// the same way, regardless of the joints above the hips in their files.
+/// Rotates and moves the second movement so that it starts on the spot on which the first ends, on the same floor and
+/// facing the same way, regardless of the joints above the hips in their files.
 fn face_alike(first: &Work, second: &mut Work) {
     let (end, faced) = standing(first, first.frames - 1);
     let (start, facing) = standing(second, 0);
@@ -171,10 +266,7 @@ fn face_alike(first: &Work, second: &mut Work) {
         .zip(facing)
         .map_or(0.0, |(to, from)| yaw(to) - yaw(from));
     let turn = DQuat::from_rotation_y(angle);
-    let mut shift = end - turn * start;
-    if shift.y.abs() < FLOOR {
-        shift.y = 0.0;
-    }
+    let shift = end - turn * start;
     let moves = shift.length() > 1e-6 || turn.w.abs() < 1.0 - 1e-9;
     if !moves {
         return;

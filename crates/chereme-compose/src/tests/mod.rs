@@ -5,6 +5,7 @@ mod curves;
 mod draft;
 mod expression;
 mod goldens;
+mod joining;
 mod laws;
 mod notated;
 mod operators;

@@ -142,6 +142,14 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
         "the two pieces do not meet: {what} would leap by {distance} m, at {speed} m/s",
         "les deux morceaux ne se rejoignent pas : {what} sauterait de {distance} m, à {speed} m/s",
     ),
+    (
+        "too fast: {speed} m/s at {part}, {added} m/s more than before, and at most {most} m/s can be added",
+        "trop rapide : {speed} m/s pour {part}, {added} m/s de plus qu’avant, et {most} m/s de plus au maximum",
+    ),
+    (
+        "give it more time, or cut wrong first or last frames off before (`| trim`)",
+        "donnez-lui plus de temps, ou coupez avant les premières ou dernières images fausses (`| trim`)",
+    ),
     ("\"{name}\" has no frames", "\"{name}\" n’a pas d’images"),
     (
         "the result would have {frames} frames, and at most {most} can be generated for this skeleton",
@@ -408,6 +416,10 @@ pub(super) const COMPOSING: &[(&str, &str)] = &[
     (
         "reaching takes {time} s",
         "atteindre la cible prend {time} s",
+    ),
+    (
+        "{step}: up to {speed} m/s at {part}, {added} m/s more than before",
+        "{step} : jusqu’à {speed} m/s pour {part}, {added} m/s de plus qu’avant",
     ),
     (
         "{step}: a hand stays up to {cm} cm from its target",

@@ -334,6 +334,9 @@ const MESSAGES: &[(&str, &str)] = &[
     ("the right hand", "la main droite"),
     ("the left hand", "la main gauche"),
     ("the body", "le corps"),
+    ("the hips", "les hanches"),
+    ("the wrists", "les poignets"),
+    ("the feet", "les pieds"),
     ("an operator", "un opérateur"),
     (
         "the tier {name} of the file is {other} in the corpus",

@@ -20,12 +20,12 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     ("trunk          {from}", "tronc          {from}"),
     ("legs           {from}", "jambes         {from}"),
     (
-        "right {from}–{to}: position {mm} mm, velocity {v} m/s, acceleration {a} m/s²   ({what})",
-        "droite {from}–{to} : position {mm} mm, vitesse {v} m/s, accélération {a} m/s²   ({what})",
+        "right {from}–{to}: position {mm} mm, change of velocity {v} m/s, of acceleration {a} m/s²   ({what})",
+        "droite {from}–{to} : position {mm} mm, changement de vitesse {v} m/s, d’accélération {a} m/s²   ({what})",
     ),
     (
-        "left  {from}–{to}: position {mm} mm, velocity {v} m/s, acceleration {a} m/s²   ({what})",
-        "gauche {from}–{to} : position {mm} mm, vitesse {v} m/s, accélération {a} m/s²   ({what})",
+        "left  {from}–{to}: position {mm} mm, change of velocity {v} m/s, of acceleration {a} m/s²   ({what})",
+        "gauche {from}–{to} : position {mm} mm, changement de vitesse {v} m/s, d’accélération {a} m/s²   ({what})",
     ),
     (
         "letters are held for {time} s, the median of {n} in the corpus",
@@ -78,5 +78,9 @@ pub(super) const NOTES: &[(&str, &str)] = &[
     (
         "the second signer's movement is put on the first one's body",
         "le mouvement du second signeur est mis sur le corps du premier",
+    ),
+    (
+        "up to {speed} m/s at {part} between the pieces",
+        "jusqu’à {speed} m/s entre les morceaux pour {part}",
     ),
 ];

@@ -1,0 +1,136 @@
+//! The speeds of hips, wrists and feet, and what a step adds to them.
+
+use std::ops::Range;
+
+use chereme_motion::{Part, Side};
+
+use crate::error::Cause;
+use crate::work::{Columns, Work};
+
+/// Parts of the body whose speed is watched.
+struct Watched {
+    name: &'static str,
+    parts: &'static [Part],
+    /// The speed in metres per second that a step may add without a warning: signers stand on their feet, and the
+    /// wrists of captured ones stay below some 2 m/s.
+    unwarned: f64,
+}
+
+const WATCHED: [Watched; 3] = [
+    Watched {
+        name: "the hips",
+        parts: &[Part::Hips],
+        unwarned: 0.5,
+    },
+    Watched {
+        name: "the wrists",
+        parts: &[Part::Hand(Side::Right), Part::Hand(Side::Left)],
+        unwarned: 4.0,
+    },
+    Watched {
+        name: "the feet",
+        parts: &[Part::Foot(Side::Right), Part::Foot(Side::Left)],
+        unwarned: 0.5,
+    },
+];
+
+/// The multiple of the unwarned speed above which a step is refused.
+const REFUSED: f64 = 3.0;
+
+/// The greatest speeds of hips, wrists and feet in metres per second; zero for parts that the skeleton lacks.
+pub(crate) type Peaks = [f64; WATCHED.len()];
+
+/// The speed of hips, wrists and feet from each frame to the next in metres per second, that of the faster side; empty
+/// for parts that the skeleton lacks.
+pub(crate) struct StepSpeeds([Vec<f64>; WATCHED.len()]);
+
+impl StepSpeeds {
+    pub(crate) fn measure(work: &Work) -> Self {
+        let joints = WATCHED.map(|watched| {
+            let parts = watched.parts.iter();
+            let joints = parts.filter_map(|&part| work.anatomy.joint(part));
+            joints.collect::<Vec<usize>>()
+        });
+        let columns = Columns::of(work, joints.iter().flatten().copied());
+        let speed = |joint: usize, frame: usize| {
+            let path = columns.positions(joint);
+            path[frame].distance(path[frame + 1]) * work.rate.per_second()
+        };
+        let steps = work.frames.saturating_sub(1);
+        Self(joints.map(|joints| {
+            let steps = if joints.is_empty() { 0 } else { steps };
+            let fastest = |frame: usize| {
+                let speeds = joints.iter().map(|&joint| speed(joint, frame));
+                speeds.fold(0.0, f64::max)
+            };
+            (0..steps).map(fastest).collect()
+        }))
+    }
+
+    /// Returns the greatest speeds over a whole movement.
+    pub(crate) fn peaks_of(work: &Work) -> Peaks {
+        Self::measure(work).peaks(0..work.frames)
+    }
+
+    /// Returns the greatest speeds over some steps; step n goes from frame n to the next.
+    pub(crate) fn peaks(&self, steps: Range<usize>) -> Peaks {
+        self.0.each_ref().map(|speeds| {
+            let end = steps.end.min(speeds.len());
+            let speeds = &speeds[steps.start.min(end)..end];
+            speeds.iter().copied().fold(0.0, f64::max)
+        })
+    }
+
+    /// Returns the speeds here and in `before` at the moments at which this movement is the most faster; both have the
+    /// same frames. Parts that one of them lacks are left out.
+    pub(crate) fn most_added(&self, before: &Self) -> (Peaks, Peaks) {
+        let pairs: [(f64, f64); WATCHED.len()] = std::array::from_fn(|n| {
+            let pairs = before.0[n].iter().copied().zip(self.0[n].iter().copied());
+            let most = pairs.max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
+            most.unwrap_or_default()
+        });
+        (pairs.map(|pair| pair.0), pairs.map(|pair| pair.1))
+    }
+
+    /// Returns the speeds between two pieces, a sentence for each part.
+    pub(crate) fn between_pieces(&self, steps: Range<usize>) -> Vec<String> {
+        let peaks = self.peaks(steps);
+        let known = (0..WATCHED.len()).filter(|&n| !self.0[n].is_empty());
+        let sentence = |n: usize| {
+            let name = WATCHED[n].name;
+            format!("up to {:.2} m/s at {name} between the pieces", peaks[n])
+        };
+        known.map(sentence).collect()
+    }
+}
+
+/// Returns the faster of two for each part.
+pub(crate) fn faster(one: Peaks, other: Peaks) -> Peaks {
+    std::array::from_fn(|n| one[n].max(other[n]))
+}
+
+/// Returns a warning for each part to which a step adds more speed than people need.
+///
+/// # Errors
+/// [`Cause::Rushed`] if it adds over three times that.
+pub(crate) fn check_added(before: Peaks, after: Peaks) -> Result<Vec<String>, Cause> {
+    let mut warnings = Vec::new();
+    for (n, watched) in WATCHED.iter().enumerate() {
+        let added = after[n] - before[n];
+        if added > REFUSED * watched.unwarned {
+            return Err(Cause::Rushed {
+                part: watched.name,
+                speed: after[n],
+                added,
+                most: REFUSED * watched.unwarned,
+            });
+        }
+        if added > watched.unwarned {
+            warnings.push(format!(
+                "up to {:.1} m/s at {}, {added:.1} m/s more than before",
+                after[n], watched.name
+            ));
+        }
+    }
+    Ok(warnings)
+}
