@@ -324,6 +324,9 @@ impl Studio {
                     if self.little.hear(id, &ended) {
                         continue;
                     }
+                    if ended.is_err() && self.panes.timeline.awaits_change(id) {
+                        self.forget_keys();
+                    }
                     self.panes.hear(id, &ended);
                     self.overlays.export.hear(id, &ended);
                     if let Ok(Outcome::Imported(report)) = &ended
@@ -331,9 +334,6 @@ impl Studio {
                         && std::mem::take(&mut self.looking)
                     {
                         self.out.send(Command::Do(Action::LayoutAnnotate));
-                    }
-                    if ended.is_err() && about.lane == Lane::Edit {
-                        self.forget_keys();
                     }
                     if !(about.quiet && ended.is_err()) {
                         self.hear(ended, about.task);

@@ -8,8 +8,7 @@ use eframe::egui::{
 use egui_tiles::{Behavior, SimplificationOptions, Tabs, Tile, TileId, Tiles, UiResponse};
 
 use crate::context::{Outbox, PaneInput};
-use crate::panes::carry;
-use crate::panes::{PaneKind, Panes};
+use crate::panes::{PaneKind, Panes, carry, focused_widget};
 use crate::words::shell as words;
 
 /// The panes, as drawn by the tile layout.
@@ -44,11 +43,10 @@ struct Strip {
 const MARGIN: f32 = 8.0;
 
 /// Returns the widget with the keyboard focus, if it lies in a part of the window, and not above it.
-fn focused_widget(ui: &Ui, part: Rect) -> Option<Response> {
-    let focused = ui.memory(|memory| memory.focused())?;
-    let response = ui.ctx().read_response(focused)?;
-    let inside = part.contains_rect(response.interact_rect);
-    (response.layer_id == ui.layer_id() && inside).then_some(response)
+fn focused_in(ui: &Ui, part: Rect) -> Option<Response> {
+    let is_inside =
+        |it: &Response| it.layer_id == ui.layer_id() && part.contains_rect(it.interact_rect);
+    focused_widget(ui).filter(is_inside)
 }
 
 impl Workbench<'_> {
@@ -56,7 +54,7 @@ impl Workbench<'_> {
     /// to its widgets after `before` other reports.
     fn keep_cursor(&mut self, ui: &Ui, part: Rect, (pane, before): (PaneKind, usize)) {
         if ui.memory(|memory| memory.focused()).is_some() {
-            let field = focused_widget(ui, part).filter(|_| ui.ctx().text_edit_focused());
+            let field = focused_in(ui, part).filter(|_| ui.ctx().text_edit_focused());
             match (field, &self.cursor) {
                 (Some(field), _) => *self.cursor = Some((pane, field.id)),
                 (None, Some((of, _))) if *of == pane => *self.cursor = None,
@@ -95,7 +93,7 @@ impl Behavior<PaneKind> for Workbench<'_> {
             // A press on a list or a menu above the pane is none on the pane.
             let pressed = ui.input(|input| input.pointer.any_pressed());
             if pressed && ui.rect_contains_pointer(rect)
-                || focused_widget(ui, rect).is_some_and(|it| it.gained_focus())
+                || focused_in(ui, rect).is_some_and(|it| it.gained_focus())
             {
                 *self.pane = Some(*kind);
             }

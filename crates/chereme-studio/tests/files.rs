@@ -98,7 +98,10 @@ fn the_shown_recording_is_exported_to_a_typed_path() {
     click(&mut window, "Write");
     idle(&mut window);
     until(&mut window, "the notice", |window| {
-        shows(window, &format!("Written: all.csv in {}", folder.path().display()))
+        shows(
+            window,
+            &format!("Written: all.csv in {}", folder.path().display()),
+        )
     });
     assert!(
         std::fs::read_to_string(&to)

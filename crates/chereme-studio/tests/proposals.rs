@@ -159,7 +159,11 @@ fn enter_after_the_last_proposal_makes_nothing() {
     let text = "All proposals of this recording are accepted.";
     assert!(window.query_all_by_label_contains(text).next().is_some());
     // A tier of proposals takes no annotation of a person.
-    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowRight);
+    press(
+        &mut window,
+        Modifiers::COMMAND | Modifiers::SHIFT,
+        Key::ArrowRight,
+    );
     for (modifiers, key) in [
         (Modifiers::COMMAND | Modifiers::ALT, Key::N),
         (Modifiers::SHIFT, Key::Enter),

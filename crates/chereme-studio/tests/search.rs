@@ -241,7 +241,9 @@ fn facets_narrow_and_a_search_is_saved_renamed_and_deleted() {
         it.state().generation() == corpus.generation().ok()
     });
     click(&mut window, "Name of this search");
-    window.get_by_label("Name of this search").type_text("VEES2");
+    window
+        .get_by_label("Name of this search")
+        .type_text("VEES2");
     window.run_steps(2);
     click(&mut window, "Save");
     idle(&mut window);

@@ -54,7 +54,10 @@ fn digits_and_delete_do_nothing_outside_the_timeline() {
         press(&mut window, modifiers, key);
         press(&mut window, NONE, Key::Escape);
         type_text(&mut window, "34");
-        press(&mut window, NONE, Key::Delete);
+        if key != Key::F1 {
+            // In the library it deletes the recording.
+            press(&mut window, NONE, Key::Delete);
+        }
         idle(&mut window);
         assert_eq!(operations(&window), before, "{key:?}");
     }
@@ -107,4 +110,24 @@ fn the_end_of_an_annotation_opens_its_field_in_sight() {
     press(&mut window, NONE, Key::Enter);
     stored(&mut window, before + 2);
     assert_eq!(values(&window, "Gloss"), ["HUIS-2"]);
+}
+
+#[test]
+fn proposals_come_into_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = opened(folder.path());
+    window.set_size(eframe::egui::vec2(1280.0, 800.0));
+    click(&mut window, "Tier Gloss");
+    press(&mut window, CTRL | Modifiers::SHIFT | ALT, Key::P);
+    window
+        .get_by_label_contains("strokes: strokes of each wrist")
+        .click();
+    let tier = "Tier movement.phase right (proposed)";
+    common::until(&mut window, "the strokes", |it| {
+        it.query_by_label_contains("Proposals on separate tiers")
+            .is_some()
+    });
+    window.run_steps(12);
+    // Above the lower edge of the rows.
+    assert!(rect(&window, tier).bottom() <= 764.0);
 }

@@ -214,10 +214,20 @@ pub(crate) fn list_row(
     list_row_after(ui, (height, 0.0), chosen, name, about)
 }
 
+/// Returns the widget with the keyboard focus.
+pub(crate) fn focused_widget(ui: &Ui) -> Option<Response> {
+    let focused = ui.memory(|memory| memory.focused())?;
+    let response = ui.ctx().read_response(focused);
+    // After a click elsewhere, reading takes the focus from a widget that was just given it.
+    if ui.memory(|memory| memory.focused().is_none()) {
+        ui.memory_mut(|memory| memory.request_focus(focused));
+    }
+    response
+}
+
 /// Scrolls to a widget of this part of a pane that the keyboard has just reached.
 pub(crate) fn reach_focus(ui: &Ui) {
-    let focused = ui.memory(|memory| memory.focused());
-    let Some(it) = focused.and_then(|id| ui.ctx().read_response(id)) else {
+    let Some(it) = focused_widget(ui) else {
         return;
     };
     // Visible widgets of other parts may lie where hidden widgets of this part would be.

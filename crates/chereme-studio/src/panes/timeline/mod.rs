@@ -232,6 +232,11 @@ impl Timeline {
         self.view.reveal = true;
     }
 
+    /// Returns whether the work is a change of annotations that was requested here.
+    pub(crate) fn awaits_change(&self, work: WorkId) -> bool {
+        self.asked.pending.contains_key(&work)
+    }
+
     /// Returns whether a new annotation is about to be selected, so that keys for it wait.
     pub(crate) fn awaits_selection(&self) -> bool {
         !self.asked.to_select.is_empty() && self.view.drawn

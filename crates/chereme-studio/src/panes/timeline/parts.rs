@@ -27,9 +27,11 @@ pub(super) struct View {
     pub(super) width: f32,
     /// The playhead in the last frame, in microseconds.
     pub(super) playhead: i64,
-    /// Whether to bring the selected tier into sight, and a tier to bring there instead of it.
+    /// Whether to bring the selected tier into sight.
     pub(super) reveal: bool,
-    pub(super) other_tier: Option<i64>,
+    /// A tier to bring into sight instead of it, and for how many more frames: rows and panes that change with it find
+    /// their places in several.
+    pub(super) other_tier: Option<(i64, u8)>,
     /// Whether the pane was in sight in this frame, or the last.
     pub(super) drawn: bool,
 }
@@ -52,7 +54,9 @@ impl View {
 
     /// Brings a tier and a moment into sight.
     pub(super) fn bring_into_sight(&mut self, tier: i64, moment: Instant, whole: Span) {
-        (self.reveal, self.other_tier) = (true, Some(tier));
+        /// As many frames as a changed layout needs, and more.
+        const FRAMES: u8 = 12;
+        self.other_tier = Some((tier, FRAMES));
         let (moment, width) = (moment.micros() as f64, self.width);
         let follows = |window: Window| window.following(moment, whole, width);
         self.window = self.window.map(follows);

@@ -364,6 +364,12 @@ impl Drawing<'_, '_> {
             self.timeline.layout.seen = selected;
             self.timeline.view.reveal |= selected.is_some();
         }
+        if let Some((tier, frames)) = self.timeline.view.other_tier {
+            self.timeline.view.reveal = true;
+            let left = frames.checked_sub(1);
+            self.timeline.view.other_tier = left.map(|left| (tier, left));
+            ui.ctx().request_repaint();
+        }
         let mut scroll = ScrollArea::vertical().auto_shrink(false);
         let held = self.timeline.layout.scroll_to.take();
         if let Some(offset) = self.reveal(&all, contents, area.height()).or(held) {
@@ -408,13 +414,7 @@ impl Drawing<'_, '_> {
         if !std::mem::take(&mut self.timeline.view.reveal) {
             return None;
         }
-        let other = &mut self.timeline.view.other_tier;
-        // New rows can be scrolled to in the next frame.
-        let other = if self.timeline.layout.grown {
-            *other
-        } else {
-            other.take()
-        };
+        let other = self.timeline.view.other_tier.map(|it| it.0);
         let wanted = other.or(self.seen.shown.tier);
         let is = |row: &TimelineRow| Some(contents.tiers[row.tier].row.id) == wanted;
         let number = all.iter().position(is)?;
