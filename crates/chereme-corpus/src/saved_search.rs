@@ -426,7 +426,7 @@ mod tests {
             assert!(corpus.rename_search(name, "other").is_err(), "{name}");
         }
         corpus.rename_search("chin", "Chin").expect("the same name");
-        let circle = corpus.keep_searches(&[kept("chin", "not @my both")]);
+        let circle = corpus.keep_searches(&[kept("chin", "not @\"my both\"")]);
         let circle = circle.expect_err("a circle").to_string();
         assert!(
             circle.contains("@chin > @my both > @both > @chin"),

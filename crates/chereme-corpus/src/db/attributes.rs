@@ -105,7 +105,7 @@ pub(crate) fn tokens_that(
     let signs: Vec<i64> = signs.into_iter().collect();
     let mut statement = connection.prepare_cached(
         "SELECT id, sign_id FROM token WHERE sign_id IN (SELECT value FROM json_each(?1))
-             AND NOT (origin = 'lexicon' AND coalesce(source ->> '$.cells' IS NOT NULL, 0))",
+             AND NOT (origin = 'lexicon' AND coalesce(instr(source, '\"cells\":'), 0))",
     )?;
     let mut rows = statement.query([json_list(&signs)])?;
     while let Some(row) = rows.next()? {

@@ -156,6 +156,18 @@ fn a_row_that_was_removed_from_a_table_is_reported() {
         messages(&report)
     );
     assert_eq!(total(&mut corpus, ""), 5);
+    // The first version again is a new version.
+    let first = desk.file("t.csv", &format!("{head}B,5\nC,S\nC,A\n"));
+    let report = import(&mut corpus, &first, "{}");
+    assert_eq!(report.status, FileStatus::Imported);
+    assert!(
+        messages(&report).contains("were kept: D"),
+        "{}",
+        messages(&report)
+    );
+    assert_eq!(total(&mut corpus, "gloss=C configuration=S"), 1);
+    let report = import(&mut corpus, &first, "{}");
+    assert_eq!(report.status, FileStatus::Unchanged);
 }
 
 #[test]

@@ -156,8 +156,9 @@ configuration==[index middle] =>
 movement=arc => CHAT
 movement=up => BOL-2H
 movement.direction=up => BOL-2H
-movement=* => CHAT BOL-2H
-movement=unset => MAISON INDEX:1 ÉCOLE BOL ESCARGOT
+movement=* => CHAT
+movement.direction=* => BOL-2H
+movement=unset => BOL-2H MAISON INDEX:1 ÉCOLE BOL ESCARGOT
 nonmanual=raised => INDEX:1
 nonmanual.brows=raised,furrowed => INDEX:1 ÉCOLE
 configuration=U placement=chin => CHAT
