@@ -55,8 +55,8 @@ impl Drop for Unfinished {
 /// Removes what killed programs left under temporary names for the place `to`.
 pub(crate) fn remove_leftovers(to: &Path) {
     let name = to.file_name().unwrap_or_default().to_string_lossy();
-    let folder = to.parent().filter(|it| !it.as_os_str().is_empty());
-    remove_leftovers_in(folder.unwrap_or(Path::new(".")), |it| it == name);
+    let folder = to.parent().filter(|folder| !folder.as_os_str().is_empty());
+    remove_leftovers_in(folder.unwrap_or(Path::new(".")), |own| own == name);
 }
 
 /// Removes what killed programs left in a folder under temporary names for the names that `is_own` accepts.
@@ -80,8 +80,10 @@ pub(crate) fn remove_leftovers_in(folder: &Path, is_own: impl Fn(&str) -> bool) 
 
 /// Returns the name of the file to which a file belongs: that of the database for its companions.
 fn main_name(name: &str) -> Option<&str> {
-    let ending = COMPANIONS.iter().find_map(|it| name.strip_suffix(it));
-    Some(ending.unwrap_or(name)).filter(|it| it.starts_with('.'))
+    let ending = COMPANIONS
+        .iter()
+        .find_map(|ending| name.strip_suffix(ending));
+    Some(ending.unwrap_or(name)).filter(|main| main.starts_with('.'))
 }
 
 /// Returns the final name of a file under a temporary name of this program.
@@ -98,8 +100,8 @@ fn temporary_name(to: &Path) -> PathBuf {
 
 /// Returns whether a file or folder is old and no process holds it.
 fn is_abandoned(path: &Path) -> bool {
-    let modified = fs::symlink_metadata(path).and_then(|it| it.modified());
-    let is_old = modified.is_ok_and(|it| it.elapsed().is_ok_and(|age| age > LEAST_AGE));
+    let modified = fs::symlink_metadata(path).and_then(|found| found.modified());
+    let is_old = modified.is_ok_and(|then| then.elapsed().is_ok_and(|age| age > LEAST_AGE));
     is_old && is_free(path)
 }
 
@@ -126,7 +128,7 @@ fn is_free(_: &Path) -> bool {
 
 /// Removes a file with its companions, or a folder; what is not there needs no removal.
 fn remove(path: &Path) {
-    if fs::symlink_metadata(path).is_ok_and(|it| it.is_dir()) {
+    if fs::symlink_metadata(path).is_ok_and(|found| found.is_dir()) {
         drop(fs::remove_dir_all(path));
         return;
     }
@@ -185,12 +187,12 @@ mod tests {
         fs::create_dir(&shelf).expect("made");
         fs::write(shelf.join("a"), "a").expect("written");
         File::open(&shelf)
-            .and_then(|it| it.set_modified(std::time::SystemTime::UNIX_EPOCH))
+            .and_then(|held| held.set_modified(std::time::SystemTime::UNIX_EPOCH))
             .expect("set");
         remove_leftovers(&to);
         let names = fs::read_dir(folder.path()).expect("a folder").flatten();
         let mut names: Vec<String> = names
-            .map(|it| it.file_name().to_string_lossy().into_owned())
+            .map(|entry| entry.file_name().to_string_lossy().into_owned())
             .collect();
         let mut wanted: Vec<String> = kept.into_iter().chain([young]).collect();
         names.sort();

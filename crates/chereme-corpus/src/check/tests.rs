@@ -131,7 +131,7 @@ fn a_changed_cell_of_any_table_is_found() {
     for table in seals::sealed_tables() {
         let columns: Vec<String> = foreign
             .prepare("SELECT name FROM pragma_table_info(?1) WHERE pk = 0 AND name <> 'uid'")
-            .and_then(|mut it| it.query_map([table], |row| row.get(0))?.collect())
+            .and_then(|mut rows| rows.query_map([table], |row| row.get(0))?.collect())
             .expect("columns");
         let key = match table {
             "changeset" => "operation_id",
@@ -182,8 +182,8 @@ fn seals_follow_edits_undo_and_redo_and_damage_stays_visible_beside_them() {
         let sql = "SELECT operation_id, data FROM changeset";
         let all: Vec<(i64, Vec<u8>)> = foreign
             .prepare(sql)
-            .and_then(|mut it| {
-                it.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+            .and_then(|mut rows| {
+                rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
                     .collect()
             })
             .expect("read");
@@ -283,8 +283,8 @@ fn a_flipped_bit_in_the_index_is_found_and_changes_no_answer() {
         .store
         .read()
         .prepare(sql)
-        .and_then(|mut it| {
-            it.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .and_then(|mut rows| {
+            rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
                 .collect()
         })
         .expect("files");
@@ -385,9 +385,9 @@ fn annotations_that_are_their_own_parents_end_no_loop() {
     drop(corpus.replace_values(&find, "CAT", &Within::default(), false, progress));
     let report = checked(&mut corpus, false);
     assert!(!report.ok);
-    let cycle = |it: &Fault| it.message.contains("hangs below itself");
+    let is_cycle = |fault: &Fault| fault.message.contains("hangs below itself");
     assert!(
-        report.questions.iter().any(cycle),
+        report.questions.iter().any(is_cycle),
         "{:#?}",
         report.questions
     );

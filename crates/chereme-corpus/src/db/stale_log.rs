@@ -3,6 +3,8 @@
 
 use std::fs::{self, Metadata};
 use std::path::{Path, PathBuf};
+#[cfg(unix)]
+use std::time::Duration;
 use std::time::SystemTime;
 
 use rusqlite::config::DbConfig;
@@ -39,18 +41,19 @@ fn came_later(path: &Path, log: &Path) -> bool {
     log.len() > 0 && log.modified().is_ok_and(|written| written < placed(&file))
 }
 
-/// Returns when a file was written, or put at its path if the system knows that.
+/// Returns when a file was written or put at its path.
+#[cfg(unix)]
 fn placed(file: &Metadata) -> SystemTime {
-    let written = file.modified().unwrap_or(SystemTime::UNIX_EPOCH);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::MetadataExt as _;
-        let nanos = u32::try_from(file.ctime_nsec()).unwrap_or_default();
-        let since = std::time::Duration::new(file.ctime().max(0).cast_unsigned(), nanos);
-        written.max(SystemTime::UNIX_EPOCH + since)
-    }
-    #[cfg(not(unix))]
-    written
+    use std::os::unix::fs::MetadataExt as _;
+    let nanos = u32::try_from(file.ctime_nsec()).unwrap_or_default();
+    let changed = Duration::new(file.ctime().max(0).cast_unsigned(), nanos);
+    SystemTime::UNIX_EPOCH + changed
+}
+
+/// Returns when a file was written; other systems do not tell when it was put at its path.
+#[cfg(not(unix))]
+fn placed(file: &Metadata) -> SystemTime {
+    file.modified().unwrap_or(SystemTime::UNIX_EPOCH)
 }
 
 /// Returns whether the pages of a database fit each other; a reader never writes the log into the file.
@@ -58,11 +61,11 @@ fn is_whole(name: impl AsRef<Path>) -> bool {
     let flags = OpenFlags::SQLITE_OPEN_READ_ONLY
         | OpenFlags::SQLITE_OPEN_NO_MUTEX
         | OpenFlags::SQLITE_OPEN_URI;
-    let answer = Connection::open_with_flags(name, flags).and_then(|it| {
-        it.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
-        it.query_row("PRAGMA quick_check(1)", [], |row| row.get::<_, String>(0))
+    let answer = Connection::open_with_flags(name, flags).and_then(|reader| {
+        reader.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)?;
+        reader.query_row("PRAGMA quick_check(1)", [], |row| row.get::<_, String>(0))
     });
-    answer.is_ok_and(|it| it == "ok")
+    answer.is_ok_and(|line| line == "ok")
 }
 
 #[cfg(all(test, unix))]
