@@ -1,58 +1,22 @@
 //! The French of the command line, found by its English form: help, lines and titles of tables.
 //!
-//! Each command states its French in `WORDS` of its module; [`shared`] holds the French of what several commands have.
+//! The French of a command lies in `schema/words/fr/command-NAME.ftl`, beside its English in `en`; that of several commands in
+//! `commands.ftl`.
 
 pub(crate) mod kinds;
-mod shared;
 #[cfg(test)]
 mod tests;
 
-use chereme_corpus::words::{Forms, Language, Text, fill, guide_among, message_among};
+use chereme_corpus::words::{Language, Text, fill, guide, help_text};
 use chereme_corpus::{TierRole, readable_files};
 use clap::builder::StyledStr;
 use clap::{Arg, ArgAction, Command};
 
-use crate::commands;
-use shared::SHARED;
+pub(crate) use chereme_corpus::words::{column_title as title, message};
 
-/// The French words of a command, each beside its English form. No English form has two French ones.
-pub(crate) struct Words {
-    /// Paragraphs of the help, without a full stop at the end of one that has nothing below it, and notes behind examples.
-    pub(crate) help: Forms,
-    /// Lines and errors; `{name}` stands for a variable part. A form that is contained in another comes after it.
-    pub(crate) lines: Forms,
-    /// Titles of tables. Names of columns that filters use stay English.
-    pub(crate) titles: Forms,
-}
-
-/// Returns the words of every command, then the shared ones.
-fn all() -> impl Iterator<Item = &'static Words> {
-    commands::WORDS.iter().copied().chain([&SHARED])
-}
-
-/// Returns the French form of an English text in tables; nothing if they lack it.
-fn of(mut tables: impl Iterator<Item = Forms>, english: &str) -> Option<&'static str> {
-    let found = |table: Forms| table.iter().find(|known| known.0 == english);
-    tables.find_map(found).map(|known| known.1)
-}
-
-/// Returns a text of the help in French; nothing if the tables lack it.
+/// Returns a text of the help in French; nothing if the files of words lack it.
 fn help(english: &str) -> Option<&'static str> {
-    of(all().map(|it| it.help), english)
-}
-
-/// Returns the title of a column in `language`; a title that the tables lack stays as it is.
-pub(crate) fn title(title: &str, language: Language) -> &str {
-    match language {
-        Language::English => title,
-        Language::French => of(all().map(|it| it.titles), title).unwrap_or(title),
-    }
-}
-
-/// Returns a line or a message of the library in `language`; nothing if no table has it.
-pub(crate) fn message(text: &str, language: Language) -> Option<String> {
-    let own: Vec<Forms> = all().map(|it| it.lines).collect();
-    message_among(text, language, &own)
+    help_text(english, Language::French)
 }
 
 /// The phrases of clap, as English and French.
@@ -264,17 +228,13 @@ fn translated(text: &StyledStr) -> String {
     if let Some(french) = help(&text) {
         return french.to_owned();
     }
-    let notes: Vec<Forms> = all().map(|it| it.help).collect();
     let paragraph = |text: &str| {
         let lists = [readable_files, roles];
         if let Some(list) = lists.iter().find(|list| list(Language::English) == text) {
             return list(Language::French);
         }
         let known = help(text).or_else(|| help(text.trim_end_matches('.')));
-        known.map_or_else(
-            || guide_among(text, Language::French, &notes),
-            str::to_owned,
-        )
+        known.map_or_else(|| guide(text, Language::French), str::to_owned)
     };
     let all: Vec<String> = text.split("\n\n").map(paragraph).collect();
     all.join("\n\n")

@@ -1,7 +1,5 @@
 //! `chereme agree`: compares what two annotators made of the same recordings.
 
-mod french;
-
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -13,8 +11,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-
-pub(super) use french::WORDS;
 
 /// Measure how far two annotators agree, on which values they differ, and where
 ///

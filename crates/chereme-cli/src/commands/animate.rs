@@ -8,7 +8,6 @@ use chereme_corpus::Staging;
 use crate::args::Cli;
 use crate::output::Output;
 use crate::streams;
-use crate::words::Words;
 
 /// Synthesise movement from notation: HamNoSys or SiGML, on any body
 ///
@@ -75,39 +74,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let done = corpus.animate(&notation, &staging, args.gloss.as_deref())?;
     super::recombine::print(&done, args.explain, args.draw.as_deref(), output)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Synthesise movement from notation: HamNoSys or SiGML, on any body",
-            "Synthétiser un mouvement à partir d’une notation, HamNoSys ou SiGML, sur n’importe quel corps",
-        ),
-        (
-            "The notation: a file, HamNoSys text, or a notated sign; - is SiGML or HamNoSys from standard input",
-            "La notation : un fichier, du HamNoSys, ou un signe noté ; - est du SiGML ou du HamNoSys de l’entrée standard",
-        ),
-        (
-            "The body that signs: that of a signer (signer:NAME), or the skeleton of a recording (recording:NAME); without it the program chooses one",
-            "Le corps qui signe : celui d’un signeur (signer:NOM), ou le squelette d’un enregistrement (recording:NOM) ; sinon le programme en choisit un",
-        ),
-        (
-            "Explain the movement: strokes, residuals, approximations",
-            "Expliquer le mouvement : traits, écarts, approximations",
-        ),
-        (
-            "Draw the movement to a contact sheet (.png), an animation (.gif) or a film (.mp4)",
-            "Dessiner le mouvement en planche (.png), en animation (.gif) ou en film (.mp4)",
-        ),
-        (
-            "The size, duration and depth of movements: default; quiet (the default without sway, blinks and other movement that the notation does not write); measured (every number that at least eight captured signs of the corpus show, else the default); or a JSON file of your own numbers, as in schema/notation/body_language.json; without the option measured",
-            "La taille, la durée et la profondeur des mouvements : default ; quiet (comme default, sans balancement, clignements ni autre mouvement que la notation n’écrit pas) ; measured (chaque nombre que montrent au moins huit signes captés du corpus, sinon default) ; ou un fichier JSON de vos propres nombres, comme schema/notation/body_language.json ; sans l’option, measured",
-        ),
-        (
-            "The notation is a SiGML file; HamNoSys in quotes, as characters or as names of symbols; a file with lines of HamNoSys (.hns or .txt); or a sign that the corpus holds as notation, such as a gloss or token:41. Several signs are performed one after another, and the hands move straight from one to the next. With --as the movement is stored as a new sign, with its own tiers and its recipe.",
-            "La notation est un fichier SiGML ; du HamNoSys entre guillemets, en caractères ou en noms de symboles ; un fichier de lignes de HamNoSys (.hns ou .txt) ; ou un signe que le corpus a en notation, comme une glose ou token:41. Plusieurs signes sont exécutés l’un après l’autre, et les mains vont droit de l’un au suivant. Avec --as, le mouvement est enregistré comme un nouveau signe, avec ses acteurs et sa recette.",
-        ),
-    ],
-    lines: &[],
-    titles: &[],
-};

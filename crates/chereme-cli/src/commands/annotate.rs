@@ -1,7 +1,5 @@
 //! `chereme annotate`: adds, changes and removes annotations, one by one or from a table.
 
-mod french;
-
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
@@ -17,8 +15,6 @@ use super::tiers;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
-
-pub(super) use french::WORDS;
 
 /// Add, change, move, split, merge, replace and remove annotations and tiers; in bulk from a table
 ///

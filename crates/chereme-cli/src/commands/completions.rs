@@ -10,7 +10,6 @@ use clap_complete::Shell;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Write the completion script of a shell to standard output
 #[derive(Debug, clap::Args)]
@@ -73,24 +72,3 @@ pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
     output.line(format!("wrote {count} to {}", folder.display()))?;
     output.document(serde_json::json!({ "files": files }))
 }
-
-/// The French words of the commands.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Write the completion script of a shell to standard output",
-            "Écrire le script de complétion d’un shell sur la sortie standard",
-        ),
-        ("The shell", "Le shell"),
-        (
-            "Write the manual pages for the program `man`",
-            "Écrire les pages du manuel, pour le programme `man`",
-        ),
-        (
-            "The folder for the pages, one for each command; without it the page of the whole program goes to standard output",
-            "Le dossier des pages, une par commande ; sinon la page de tout le programme va sur la sortie standard",
-        ),
-    ],
-    lines: &[("wrote {n} to {path}", "écrit : {n} dans {path}")],
-    titles: &[],
-};

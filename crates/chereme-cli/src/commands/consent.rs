@@ -7,7 +7,6 @@ use chereme_corpus::{Address, Audience, ConsentChange, ConsentRow};
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// State what signers agreed to: who may see their movement, its annotation, and signs made from it
 ///
@@ -123,59 +122,3 @@ fn print(rows: &[ConsentRow], output: &mut Output) -> Result<()> {
     ];
     output.table(&titles, &rows)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "State what signers agreed to: who may see their movement, its annotation, and signs made from it",
-            "Indiquer ce que les signeurs ont accepté : qui peut voir leur mouvement, son annotation et les signes qui en sont faits",
-        ),
-        (
-            "A consent belongs to a signer, or to one recording; where both say something, the narrower of the two holds. After a merge of copies that disagree, too, the narrower one holds until somebody decides (`chereme conflicts`). Without a statement a consent is unknown, and `chereme publish` leaves out what it covers. Movement shows who signs even without a face: state it only after the person agreed. Without an option the consents are listed.",
-            "Un consentement appartient à un signeur ou à un enregistrement ; si les deux disent quelque chose, le plus étroit vaut. Après une fusion de copies qui ne sont pas d’accord aussi, le plus étroit vaut jusqu’à une décision (`chereme conflicts`). Sans indication, un consentement est inconnu, et `chereme publish` laisse de côté ce qu’il concerne. Un mouvement montre qui signe, même sans visage : ne l’indiquez qu’après l’accord de la personne. Sans option, les consentements sont énumérés.",
-        ),
-        (
-            "The signers and recordings, such as signer:Ada or recording:3",
-            "Les signeurs et enregistrements, comme signer:Ada ou recording:3",
-        ),
-        (
-            "Who may see all three: public, research, nobody, or unknown",
-            "Qui peut voir les trois : public, research, nobody ou unknown",
-        ),
-        (
-            "Who may see the recorded movement",
-            "Qui peut voir le mouvement enregistré",
-        ),
-        (
-            "Who may see what annotators wrote about it",
-            "Qui peut voir ce que les annotateurs en ont écrit",
-        ),
-        (
-            "Who may see signs made from it",
-            "Qui peut voir les signes qui en sont faits",
-        ),
-        (
-            "The day of the agreement, such as 2026-11-27",
-            "Le jour de l’accord, comme 2026-11-27",
-        ),
-        (
-            "What was signed: the version of a form, its language",
-            "Ce qui a été signé : la version d’un formulaire, sa langue",
-        ),
-        (
-            "The terms of use of those recordings that have none",
-            "Les conditions d’utilisation des enregistrements qui n’en ont pas",
-        ),
-    ],
-    lines: &[],
-    titles: &[
-        ("of", "de"),
-        ("name", "nom"),
-        ("movement", "mouvement"),
-        ("annotation", "annotation"),
-        ("derived", "dérivés"),
-        ("day", "jour"),
-        ("form", "formulaire"),
-    ],
-};

@@ -11,7 +11,6 @@ use clap::ValueEnum;
 use super::keys::Spoken;
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Generate cued speech for a text: the cueing hand next to the speaking face, on any body
 ///
@@ -110,32 +109,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     done.report.warnings.append(&mut findings);
     super::recombine::print(&done, args.explain, args.draw.as_deref(), output)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Generate cued speech for a text: the cueing hand next to the speaking face, on any body",
-            "Coder un texte en langue parlée complétée, la main près du visage qui parle, sur n’importe quel corps",
-        ),
-        (
-            "The body that cues: that of a signer (signer:NAME), or the skeleton of a recording (recording:NAME); without it the program chooses one",
-            "Le corps qui code : celui d’un signeur (signer:NOM), ou le squelette d’un enregistrement (recording:NOM) ; sinon le programme en choisit un",
-        ),
-        ("Cue with the left hand", "Coder de la main gauche"),
-        ("Explain the movement", "Expliquer le mouvement"),
-        (
-            "Rules of spelling turn French text into phones. With --phones the input itself is phones; --from takes phones and their times from a TextGrid or an EAF file. With --as the movement is stored as a new sign with tiers for phones, keys, hand and fingers; then the query `cue.shape=5 cue.placement=throat` finds its keys, and `cue=24 meets cue=31` finds pairs of keys.",
-            "Des règles d’orthographe donnent les phones d’un texte français. Avec --phones, l’entrée est faite de phones ; --from prend des phones et leurs temps dans un fichier TextGrid ou EAF. Avec --as, le mouvement est enregistré comme un nouveau signe, avec des acteurs pour les phones, les clés, la main et les doigts ; la requête `cue.shape=5 cue.placement=throat` trouve alors ses clés, et `cue=24 meets cue=31` des paires de clés.",
-        ),
-        (
-            "Draw the movement to a contact sheet (.png) or an animation (.gif)",
-            "Dessiner le mouvement en planche (.png) ou en animation (.gif)",
-        ),
-    ],
-    lines: &[(
-        "there is nothing to cue; write a text, or --from FILE",
-        "il n’y a rien à coder ; écrivez un texte, ou --from FICHIER",
-    )],
-    titles: &[],
-};

@@ -1,7 +1,5 @@
 //! `chereme cued`: evaluates captured cued speech, from markers to a dictionary of movements.
 
-mod french;
-
 use std::path::PathBuf;
 
 use anyhow::Result;
@@ -16,8 +14,6 @@ use super::cue::RuleWord;
 use super::track::recording;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-
-pub(super) use french::WORDS;
 
 /// Work with captured cued speech: markers, restoration, recognition, targets, phases, dictionary, slips
 ///

@@ -8,7 +8,6 @@ use chereme_corpus::{Address, DeleteOptions, Deleted, Dependents, Progress};
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-use crate::words::Words;
 
 /// Delete recordings and signs with everything that belongs to them
 ///
@@ -105,39 +104,3 @@ fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<
     }
     Ok(())
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Delete recordings and signs with everything that belongs to them",
-            "Supprimer des enregistrements et des signes avec tout ce qui leur appartient",
-        ),
-        (
-            "A recording goes with its tracks, tiers, annotations, tokens and recipe; films next to the corpus stay. A sign goes with its lexicon entries, translations and remarks, and with recordings that were generated for it alone; a sign that loses its last token goes too, unless it has a translation or a remark. All of it is one operation, and `chereme undo` restores it: the file keeps the numbers for that, and does not become smaller.",
-            "Un enregistrement part avec ses pistes, ses acteurs, ses annotations, ses occurrences et sa recette ; les films à côté du corpus restent. Un signe part avec ses entrées de lexique, ses traductions et ses remarques, et avec les enregistrements composés pour lui seul ; un signe qui perd sa dernière occurrence part aussi, sauf s’il a une traduction ou une remarque. Le tout est une seule opération, que `chereme undo` annule : le fichier garde pour cela les nombres, et ne devient pas plus petit.",
-        ),
-        (
-            "If generated signs take movement from a recording, or a sign is annotated in recordings that stay, nothing is deleted without --with-dependents or --keep-dependents.",
-            "Si des signes composés prennent leur mouvement d’un enregistrement, ou si un signe est annoté dans des enregistrements qui restent, rien n’est supprimé sans --with-dependents ou --keep-dependents.",
-        ),
-        (
-            "The recordings and signs, such as recording:3 or sign:LIMACE",
-            "Les enregistrements et les signes, comme recording:3 ou sign:LIMACE",
-        ),
-        (
-            "Delete also generated signs that take movement from them, and annotations of the signs in recordings that stay",
-            "Supprimer aussi les signes composés qui en prennent leur mouvement, et les annotations des signes dans les enregistrements qui restent",
-        ),
-        (
-            "Keep generated signs that take movement from them; their recipes cannot be evaluated again",
-            "Garder les signes composés qui en prennent leur mouvement ; leurs recettes ne peuvent plus être évaluées",
-        ),
-        (
-            "Report what would be deleted, and write nothing",
-            "Dire ce qui serait supprimé, et ne rien écrire",
-        ),
-    ],
-    lines: &[],
-    titles: &[],
-};

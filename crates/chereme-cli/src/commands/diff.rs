@@ -11,7 +11,6 @@ use chereme_corpus::{CompareSide, Difference, Error};
 use crate::args::Cli;
 use crate::output::Output;
 use crate::streams;
-use crate::words::Words;
 
 /// Compare two annotation files, or two recordings, by meaning
 ///
@@ -129,27 +128,3 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
     );
     output.line(line)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Compare two annotation files, or two recordings, by meaning",
-            "Comparer deux fichiers d’annotation, ou deux enregistrements, selon leur sens",
-        ),
-        (
-            "Two files, or a corpus and then two recordings or files",
-            "Deux fichiers, ou un corpus puis deux enregistrements ou fichiers",
-        ),
-        (
-            "Exit with 1 if there are differences",
-            "Finir avec le code 1 s’il y a des différences",
-        ),
-        (
-            "Lists annotations that were added, removed, moved or given another value, and changes of tiers. Time slots, the order of elements and the spelling of a file make no difference; times within a millisecond are equal. Annotations are matched by their ids if both files descend from the same file, otherwise by tier and time. Both sides are annotation files or templates that `import` reads (- is standard input), or the first argument is a corpus, and the sides are files or addresses such as recording:3. With --json it prints {\"added\", \"removed\", \"moved\", \"revalued\", \"tiers\", \"document\"}. The exit code is 0 after a comparison, 1 if the comparison failed or, with --exit-code, if there are differences, and 2 on wrong usage.",
-            "Énumère les annotations ajoutées, supprimées, déplacées ou de valeur changée, et les modifications d’acteurs. Les repères de temps, l’ordre des éléments et la graphie d’un fichier ne comptent pas ; des temps à moins d’une milliseconde sont égaux. Les annotations se correspondent par leurs ids si les deux fichiers descendent du même, sinon par acteur et temps. Les deux côtés sont des fichiers d’annotations ou des modèles que `import` lit (- est l’entrée standard), ou le premier argument est un corpus, et les côtés sont des fichiers ou des adresses comme recording:3. Avec --json, écrit {\"added\", \"removed\", \"moved\", \"revalued\", \"tiers\", \"document\"}. Le code de sortie est 0 après une comparaison, 1 si elle a échoué ou, avec --exit-code, s’il y a des différences, et 2 si l’utilisation est incorrecte.",
-        ),
-    ],
-    lines: &[],
-    titles: &[],
-};

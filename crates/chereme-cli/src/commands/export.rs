@@ -9,7 +9,6 @@ use chereme_corpus::{Corpus, Error, ExportOptions, ExportWhat, Progress, SearchO
 use crate::args::Cli;
 use crate::output::{Bar, Output, write_to_stderr};
 use crate::streams;
-use crate::words::Words;
 
 /// Export movement, annotations, tables, or the whole enriched database
 ///
@@ -148,45 +147,3 @@ fn found(corpus: &mut Corpus, query: &str) -> Result<Vec<i64>> {
     let answer = corpus.search(query, &options)?;
     Ok(answer.hits.iter().map(|hit| hit.token).collect())
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Export movement, annotations, tables, or the whole enriched database",
-            "Exporter du mouvement, des annotations, des tables, ou toute la base enrichie",
-        ),
-        (
-            "The file or folder to write; - is standard output",
-            "Le fichier ou dossier à écrire ; - est la sortie standard",
-        ),
-        (
-            "The format, such as bvh or csv; needed with --to -, and to write several files into a folder",
-            "Le format, comme bvh ou csv ; nécessaire avec --to -, et pour écrire plusieurs fichiers dans un dossier",
-        ),
-        (
-            "What to export: all, a gloss, token:41, recording:3, tier:12, inventory:configurations (as .json), or query:'right.configuration=U'; several are written together",
-            "Quoi exporter : all (tout), une glose, token:41, recording:3, tier:12, inventory:configurations (en .json), ou query:'right.configuration=U' ; plusieurs vont ensemble",
-        ),
-        (
-            "The extension of --to determines the format: .bvh (movement of a recording or token), .glb (the same as glTF, for Blender and the web, with the annotations), .vrma (movement for avatars), .c3d, .trc or .markers.csv (markers), .eaf or .TextGrid (a recording's tiers, for ELAN or Praat), .elan.txt (the same as ELAN's tab-delimited text), .srt or .vtt (its translations or glosses as subtitles, one language a file; tier:12 names one), .csv or .tsv (tokens with all components), .curves.csv (the strength of each non-manual, frame by frame), .sigml (notated signs as gestural SiGML), .hsigml (the same as HamNoSys's symbols), .hns or .txt (the same as HamNoSys text, one sign on each line), and, if the program was built with `--features parquet`, .parquet (tokens for pandas, polars and DuckDB), .components.parquet, .annotations.parquet and .frames.parquet (a row for each value, each annotation, or each joint in each frame). A name without an extension is a folder: with --format it gets a file of that format for each recording or token that has something for it. Without --format `all` writes into it the database, a data dictionary with example queries, a file for each table, the recordings, the inventories, checksums and provenance. With --to - the file goes to standard output. An EAF file that nobody changed comes back byte for byte, and an edit changes only its own lines. The same corpus always gives the same bytes.",
-            "L’extension de --to détermine le format : .bvh (mouvement d’un enregistrement ou d’une occurrence), .glb (le même en glTF, pour Blender et le web, avec les annotations), .vrma (mouvement pour avatars), .c3d, .trc ou .markers.csv (marqueurs), .eaf ou .TextGrid (les acteurs d’un enregistrement, pour ELAN ou Praat), .elan.txt (les mêmes, comme texte à tabulations d’ELAN), .srt ou .vtt (ses traductions ou gloses en sous-titres, une langue par fichier ; tier:12 en nomme une), .csv ou .tsv (occurrences avec tous les composants), .curves.csv (l’intensité de chaque non-manuel, image par image), .sigml (signes notés, en SiGML gestuel), .hsigml (les mêmes en symboles de HamNoSys), .hns ou .txt (les mêmes en texte HamNoSys, un signe par ligne), et, si le programme a été compilé avec `--features parquet`, .parquet (occurrences pour pandas, polars et DuckDB), .components.parquet, .annotations.parquet et .frames.parquet (une ligne par valeur, par annotation, ou par articulation et par image). Un nom sans extension est un dossier : avec --format, il reçoit un fichier de ce format pour chaque enregistrement ou occurrence qui a de quoi. Sans --format, `all` y écrit la base, un dictionnaire des données avec des exemples de requêtes, un fichier par table, les enregistrements, les inventaires, les sommes de contrôle et la provenance. Avec --to -, le fichier va sur la sortie standard. Un fichier EAF que personne n’a modifié revient octet pour octet, et une modification ne change que ses propres lignes. Le même corpus donne toujours les mêmes octets.",
-        ),
-    ],
-    lines: &[
-        (
-            "wrote {n}, {size} MB, to {path}",
-            "écrit : {n}, {size} Mo, dans {path}",
-        ),
-        ("wrote {path}, {size} KB", "écrit : {path}, {size} Ko"),
-        (
-            "standard output has no extension that says the format",
-            "la sortie standard n’a pas d’extension qui dise le format",
-        ),
-        (
-            "name it, as with --format csv",
-            "nommez-le, comme avec --format csv",
-        ),
-    ],
-    titles: &[],
-};

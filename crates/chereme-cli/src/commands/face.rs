@@ -8,7 +8,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-use crate::words::Words;
 
 /// Show a captured face in the program's own numbers, or list the supported face systems
 ///
@@ -200,98 +199,3 @@ fn systems(named: Option<&str>, output: &mut Output) -> Result<()> {
     }
     output.document(system)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Show a captured face in the program's own numbers, or list the supported face systems",
-            "Montrer un visage capté dans les nombres du programme, ou énumérer les systèmes de visage pris en charge",
-        ),
-        (
-            "The recording, or a token in it",
-            "L’enregistrement, ou une occurrence qu’il contient",
-        ),
-        (
-            "Show one face system: arkit, mediapipe, openface, fap, mesh, sigml or house (the program's own)",
-            "Montrer un système de visage : arkit, mediapipe, openface, fap, mesh, sigml ou house (celui du programme)",
-        ),
-        (
-            "Propose annotations of brows, lids, gaze, mouth and head, each with its confidence and the rule that found it",
-            "Proposer des annotations de sourcils, paupières, regard, bouche et tête, chacune avec sa confiance et la règle qui l’a trouvée",
-        ),
-        (
-            "Fit the weights of the mapping to the signer, from a take in which each part of the face moves to its extremes",
-            "Ajuster les poids de la correspondance au signeur, d’après une prise où chaque partie du visage va à ses extrêmes",
-        ),
-        (
-            "Store the result: proposals as tiers such as \"nonmanual.brows (proposed)\", fitted weights for every face of the signer; `undo` takes it back",
-            "Enregistrer le résultat : les propositions sur des acteurs tels que « nonmanual.brows (proposed) », les poids ajustés pour chaque visage du signeur ; `undo` le retire",
-        ),
-        (
-            "Captured channels stay as their file has them. The program derives its own numbers of a face from them, or estimates them from the points of a face on film (.pose). Without a recording the command lists the face systems (ARKit, MediaPipe, OpenFace, MPEG-4, SiGML), and with --system the mapping of one system and its losses.",
-            "Les canaux captés restent tels que dans leur fichier. Le programme en déduit ses propres nombres d’un visage, ou les estime d’après les points d’un visage filmé (.pose). Sans enregistrement, la commande énumère les systèmes de visage (ARKit, MediaPipe, OpenFace, MPEG-4, SiGML), et avec --system la correspondance d’un système et ses pertes.",
-        ),
-        ("(the systems)", "(les systèmes)"),
-        (
-            "(its channels, formulas and losses)",
-            "(ses canaux, formules et pertes)",
-        ),
-        (
-            "(the face of a recording)",
-            "(le visage d’un enregistrement)",
-        ),
-        (
-            "(brows, blinks, gaze, mouth, shakes and nods as tiers)",
-            "(sourcils, clignements, regard, bouche et mouvements de la tête comme acteurs)",
-        ),
-        (
-            "(weights for this signer, from a range of motion)",
-            "(les poids de ce signeur, d’après toute l’ampleur)",
-        ),
-    ],
-    lines: &[
-        (
-            "{system} of {whose}, fitted on {n} frames of {recording}",
-            "{system} de {whose}, ajusté sur {n} images de {recording}",
-        ),
-        ("unknown: {names}", "inconnus : {names}"),
-        (
-            "{recording}: {n} frames of {system} in the track {name}",
-            "{recording} : {n} images de {system} dans la piste {name}",
-        ),
-        (
-            "the weights were fitted on {on}",
-            "les poids ont été ajustés sur {on}",
-        ),
-        (
-            "frames with bridged gaps: {n}",
-            "images à trous comblés : {n}",
-        ),
-        ("{n} annotations written", "annotations écrites : {n}"),
-        (
-            "stored: from now on these weights apply to all faces of {whose}",
-            "enregistré : désormais ces poids valent pour tous les visages de {whose}",
-        ),
-        (
-            "{name} is no face system",
-            "{name} n’est pas un système de visage",
-        ),
-        ("the systems are: {names}", "les systèmes sont : {names}"),
-    ],
-    titles: &[
-        ("confidence", "confiance"),
-        ("end", "fin"),
-        ("formula", "formule"),
-        ("least", "minimum"),
-        ("mean", "moyenne"),
-        ("most", "maximum"),
-        ("number", "nombre"),
-        ("numbers of a face", "nombres d’un visage"),
-        ("rule", "règle"),
-        ("system", "système"),
-        ("times above", "fois au-dessus"),
-        ("times below", "fois au-dessous"),
-        ("weights", "poids"),
-    ],
-};

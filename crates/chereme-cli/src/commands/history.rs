@@ -10,7 +10,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Undo the last change
 ///
@@ -199,62 +198,3 @@ fn cells(row: &OperationRow, output: &Output) -> Vec<String> {
         },
     ]
 }
-
-/// The French words of the commands.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        ("Undo the last change", "Annuler la dernière modification"),
-        (
-            "How many operations to undo",
-            "Combien d’opérations annuler",
-        ),
-        (
-            "Redo the change that was undone last",
-            "Rétablir ce qui vient d’être annulé",
-        ),
-        (
-            "How many operations to redo",
-            "Combien d’opérations rétablir",
-        ),
-        (
-            "List the operations, newest first, or show the changes of one of them",
-            "Lister les opérations, la plus récente d’abord, ou montrer ce que l’une d’elles a changé",
-        ),
-        (
-            "The operation to show in detail, by its number in the list",
-            "L’opération à montrer en détail, par son numéro dans la liste",
-        ),
-        (
-            "Show the changes below each operation",
-            "Montrer sous chaque opération ce qu’elle a changé",
-        ),
-        (
-            "List at most N operations, and of each at most N changes",
-            "Lister au plus N opérations, et de chacune au plus N modifications",
-        ),
-        (
-            "Every change can be undone, also after a restart. If --times is greater than the number of operations, all of them are undone, and the command reports how many; it fails only if there was nothing to undo.",
-            "Toute modification peut être annulée, même après un redémarrage. Si --times dépasse le nombre d’opérations, toutes sont annulées, et la commande dit combien ; elle n’échoue que s’il n’y avait rien à annuler.",
-        ),
-        (
-            "For one operation, or with --changes for each of them, lists every annotation, tier, recording, sign and value that was added, changed or removed: its name, and each field before and after.",
-            "Pour une opération, ou avec --changes pour chacune, énumère les annotations, acteurs, enregistrements, signes et valeurs ajoutés, modifiés ou supprimés : leur nom, et chaque champ, avant et après.",
-        ),
-    ],
-    lines: &[
-        (
-            "and {n}; --limit shows more",
-            "et {n} ; --limit en montre plus",
-        ),
-        ("rows: {names}", "lignes : {names}"),
-        (
-            "write how many operations, 1 or more",
-            "écrivez combien d’opérations, 1 ou plus",
-        ),
-        (
-            "write the number of an operation, such as 12",
-            "écrivez le numéro d’une opération, comme 12",
-        ),
-    ],
-    titles: &[],
-};

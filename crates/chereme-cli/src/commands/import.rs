@@ -1,7 +1,5 @@
 //! `chereme import`: takes files and folders into a corpus, and reports how each was interpreted.
 
-mod french;
-
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -18,8 +16,6 @@ use clap::ValueEnum;
 use crate::args::{Cli, SideWord, read_text, wrong_text};
 use crate::output::{Bar, Output};
 use crate::streams::{self, Stand};
-
-pub(super) use french::WORDS;
 
 /// Import recordings, annotations, lexicons and inventories into a corpus
 #[derive(Debug, clap::Args)]

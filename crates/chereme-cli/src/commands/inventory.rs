@@ -8,7 +8,6 @@ use clap::Subcommand;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Add values to an inventory, or merge two into one
 ///
@@ -111,69 +110,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         }
     }
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Add values to an inventory, or merge two into one",
-            "Ajouter des valeurs à un inventaire, ou en fusionner deux",
-        ),
-        ("Add a value", "Ajouter une valeur"),
-        (
-            "The inventory, such as configurations",
-            "L’inventaire, comme configurations",
-        ),
-        (
-            "The value, as annotations and queries spell it",
-            "La valeur, telle que l’écrivent annotations et requêtes",
-        ),
-        ("Another spelling", "Une autre graphie"),
-        (
-            "The broader value that contains this one, as head contains chin",
-            "La valeur plus large qui contient celle-ci, comme head contient chin",
-        ),
-        (
-            "Its symbols in HamNoSys, by name",
-            "Ses symboles en HamNoSys, par leurs noms",
-        ),
-        ("The value that is removed", "La valeur qui disparaît"),
-        ("The value that stays", "La valeur qui reste"),
-        (
-            "Its name in a spoken language, such as en=\"bent hand\"",
-            "Son nom dans une langue parlée, comme fr=\"main pliée\"",
-        ),
-        (
-            "A feature of the value, such as index or spread",
-            "Un trait de la valeur, comme index ou spread",
-        ),
-        (
-            "Merge two values: annotations with the first value get the second one",
-            "Fusionner deux valeurs : les annotations qui ont la première reçoivent la seconde",
-        ),
-        ("The inventory", "L’inventaire"),
-        (
-            "Each call is one operation that `chereme undo` takes back. `chereme list CORPUS inventories` names the inventories; `chereme export CORPUS inventory:NAME --to x.json` writes one, and `import` reads it again.",
-            "Chaque appel est une opération que `chereme undo` annule. `chereme list CORPUS inventories` nomme les inventaires ; `chereme export CORPUS inventory:NAME --to x.json` en écrit un, et `import` le relit.",
-        ),
-        (
-            "The spelling of the first value becomes another spelling of the second, so that a table with the old spelling can be imported again.",
-            "La graphie de la première valeur devient une autre graphie de la seconde : une table avec l’ancienne graphie peut être importée de nouveau.",
-        ),
-    ],
-    lines: &[
-        (
-            "added {value} to {inventory}",
-            "{value} ajouté à {inventory}",
-        ),
-        (
-            "{from} is {to} from now on; annotations changed: {n}, lexicon entries: {entries}",
-            "{from} est désormais {to} ; annotations modifiées : {n}, entrées du lexique : {entries}",
-        ),
-        (
-            "write LANGUAGE=NAME, such as fr=poing",
-            "écrivez LANGUE=NOM, comme fr=poing",
-        ),
-    ],
-    titles: &[],
-};

@@ -11,7 +11,6 @@ use clap::ValueEnum;
 use crate::args::Cli;
 use crate::output::Output;
 use crate::streams;
-use crate::words::Words;
 
 /// Print the keys of cued speech for a text or for phones
 ///
@@ -189,66 +188,3 @@ fn row(key: &CueKey) -> Vec<String> {
         times.unwrap_or_default(),
     ]
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Take phones and times from this TextGrid or EAF file",
-            "Prendre les phones et leurs temps dans ce fichier TextGrid ou EAF",
-        ),
-        (
-            "The tier of phones in that file; without it the first whose name aligners use for phones",
-            "L’acteur des phones dans ce fichier ; sinon le premier dont le nom est celui que les aligneurs donnent aux phones",
-        ),
-        (
-            "Print the keys of cued speech for a text or for phones",
-            "Écrire les clés de la langue parlée complétée d’un texte ou de phones",
-        ),
-        (
-            "The text, or the phones separated by blanks (a=120 is a phone of 120 ms); - is standard input",
-            "Le texte, ou les phones séparés par des blancs (a=120 est un phone de 120 ms) ; - est l’entrée standard",
-        ),
-        (
-            "Read the input as text (the default)",
-            "Lire l’entrée comme un texte (par défaut)",
-        ),
-        (
-            "Take the pronunciation from the program espeak-ng, which must be installed",
-            "Prendre la prononciation du programme espeak-ng, qui doit être installé",
-        ),
-        (
-            "A habit of some cuers, such as schwa-as-eu; may be repeated",
-            "Une habitude de certains codeurs, comme schwa-as-eu ; peut être répétée",
-        ),
-        (
-            "Keep silent final consonants silent before a vowel",
-            "Laisser muettes les consonnes finales muettes devant une voyelle",
-        ),
-        (
-            "The pronunciation of an e at the end of a word",
-            "La prononciation d’un e final",
-        ),
-        (
-            "Give the keys times: the duration of phones as a multiple of the usual one, from 0.1 to 10; people who cue need about 1.6",
-            "Donner des temps aux clés : la durée des phones en multiple de la durée habituelle, de 0.1 à 10 ; qui code en a besoin d’environ 1.6",
-        ),
-        (
-            "A key is a handshape at a placement: the shape stands for a consonant, the placement for a vowel. Rules of spelling turn French text into phones. Phones in the input are separated by blanks, or written together, as in bɔ̃ʒuʁ; `#` is a pause.",
-            "Une clé est une configuration à un emplacement : la configuration vaut pour une consonne, l’emplacement pour une voyelle. Des règles d’orthographe donnent les phones d’un texte français. Dans l’entrée, les phones sont séparés par des espaces, ou écrits ensemble, comme dans bɔ̃ʒuʁ ; `#` est une pause.",
-        ),
-        (
-            "`--json` gives \"code\", \"words\" (\"text\", \"phones\"), \"keys\" (\"shape\", \"placement\", \"or_placement\" if the vowel is uncertain, \"phones\" in SAMPA, \"start_us\", \"vowel_us\", \"end_us\": null without --pace) and \"findings\".",
-            "`--json` donne \"code\", \"words\" (\"text\", \"phones\"), \"keys\" (\"shape\", \"placement\", \"or_placement\" si la voyelle est incertaine, \"phones\" en SAMPA, \"start_us\", \"vowel_us\", \"end_us\" : null sans --pace) et \"findings\".",
-        ),
-    ],
-    lines: &[(
-        "there is nothing to read; write a text, or --from FILE",
-        "il n’y a rien à lire ; écrivez un texte, ou --from FICHIER",
-    )],
-    titles: &[
-        ("phones", "phones"),
-        ("placement", "emplacement"),
-        ("shape", "configuration"),
-    ],
-};

@@ -9,7 +9,6 @@ use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 use crate::words::kinds;
 
 /// List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, studies, operations
@@ -184,79 +183,3 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
     }
     Ok(())
 }
-
-/// The French words of the commands.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Only values of this inventory; its name may contain blanks",
-            "Seulement les valeurs de cet inventaire, dont le nom peut contenir des espaces",
-        ),
-        ("What to list", "Quoi lister"),
-        (
-            "Only rows with these values, such as gloss=BO*, start_us=>=500000, recording=recording:3, parent=none",
-            "Seulement les lignes de ces valeurs, comme gloss=BO*, start_us=>=500000, recording=recording:3, parent=none",
-        ),
-        ("The column to sort by", "La colonne du tri"),
-        (
-            "Sort from the greatest to the least",
-            "Trier du plus grand au plus petit",
-        ),
-        ("List at most N rows", "Lister au plus N lignes"),
-        ("Skip the first N rows", "Sauter les N premières lignes"),
-        (
-            "Show an overview of a corpus",
-            "Donner un aperçu d’un corpus",
-        ),
-        (
-            "List rows: recordings, tracks, signs, tokens, tiers, annotations, inventories, values, signers, searches, studies, operations",
-            "Lister : enregistrements (recordings), pistes (tracks), signes (signs), occurrences (tokens), acteurs (tiers), annotations, inventaires (inventories), valeurs (values), signeurs (signers), recherches (searches), études (studies), opérations (operations)",
-        ),
-    ],
-    lines: &[
-        (
-            "{path}: {size} MB, schema version {version}",
-            "{path} : {size} Mo, version {version} du schéma",
-        ),
-        ("holds: {list}", "contient : {list}"),
-        (
-            "movement: {hours} hours, {frames}",
-            "mouvement : {hours} heures, {frames}",
-        ),
-        (
-            "markers: {hours} hours, {frames}",
-            "marqueurs : {hours} heures, {frames}",
-        ),
-        (
-            "faces and other curves: {hours} hours, {frames}",
-            "visages et autres courbes : {hours} heures, {frames}",
-        ),
-        ("recordings: {list}", "enregistrements : {list}"),
-        ("tracks: {list}", "pistes : {list}"),
-        ("tiers: {list}", "acteurs : {list}"),
-        (
-            "signer {name}: handedness not known, {n}",
-            "signeur {name} : latéralité inconnue, {n}",
-        ),
-        (
-            "signer {name}: right, {n}",
-            "signeur {name} : droitier, {n}",
-        ),
-        ("signer {name}: left, {n}", "signeur {name} : gaucher, {n}"),
-        ("signer {name}: {hand}, {n}", "signeur {name} : {hand}, {n}"),
-        ("inventories: {list}", "inventaires : {list}"),
-        (
-            "attributes of signs: {list}",
-            "attributs des signes : {list}",
-        ),
-        (
-            "last change: {at} by {who}: {what}",
-            "dernière modification : {at} par {who} : {what}",
-        ),
-        (
-            "write COLUMN=PATTERN, such as gloss=BO*",
-            "écrivez COLONNE=MOTIF, comme gloss=BO*",
-        ),
-    ],
-    titles: &[],
-};

@@ -11,7 +11,6 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
-use crate::words::Words;
 
 /// Place the signs on a map: similar signs lie near each other
 ///
@@ -92,40 +91,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(json!(map))
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Place the signs on a map: similar signs lie near each other",
-            "Placer les signes sur une carte : les signes qui se ressemblent sont proches",
-        ),
-        (
-            "The tokens to place, as in `chereme search`",
-            "Les occurrences à placer, comme dans `chereme search`",
-        ),
-        (
-            "The components that count: configuration, placement, movement, orientation, nonmanual",
-            "Les composants qui comptent : configuration, placement, movement, orientation, nonmanual",
-        ),
-        (
-            "Draw the map to this file, an .svg; - is standard output",
-            "Dessiner la carte dans ce fichier, un .svg ; - est la sortie standard",
-        ),
-        (
-            "Two signs are similar if they share values, features of handshapes, or broader places; all components have the same weight. Without a query the map shows the citation forms of all signs. `--json` gives \"components\", \"left_out\" (the number of tokens without a coding for them) and \"signs\", each with \"token\", \"gloss\", \"origin\", \"x\" and \"y\" from 0 to 1, and \"near\", the five most similar tokens.",
-            "Deux signes se ressemblent s’ils partagent des valeurs, des traits de configurations ou des emplacements plus larges ; tous les composants ont le même poids. Sans requête, la carte montre les formes de citation de tous les signes. `--json` donne \"components\", \"left_out\" (le nombre d’occurrences qui ne sont pas codées pour eux) et \"signs\", chacun avec \"token\", \"gloss\", \"origin\", \"x\" et \"y\" de 0 à 1, et \"near\", les cinq occurrences les plus proches.",
-        ),
-    ],
-    lines: &[
-        (
-            "left out: {n} tokens that are not coded for these components",
-            "laissées de côté : {n} occurrences qui ne sont pas codées pour ces composants",
-        ),
-        (
-            "drew {n} signs to {path}: {size} KB",
-            "signes dessinés dans {path} : {n}, {size} Ko",
-        ),
-    ],
-    titles: &[("most alike", "le plus proche")],
-};

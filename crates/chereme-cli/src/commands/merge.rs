@@ -16,7 +16,6 @@ use super::diff;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
-use crate::words::Words;
 
 /// Merge a copy that somebody else changed into your corpus or annotation file
 ///
@@ -311,100 +310,3 @@ pub(super) fn conflicts(cli: &Cli, args: &ConflictsArgs, output: &mut Output) ->
     list(&decided, output)?;
     output.document(json!({ "total": decided.len(), "rows": decided }))
 }
-
-/// The French words of the commands.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Merge a copy that somebody else changed into your corpus or annotation file",
-            "Fusionner une copie modifiée par quelqu’un d’autre avec votre corpus ou fichier d’annotation",
-        ),
-        (
-            "Your corpus, or your annotation file",
-            "Votre corpus, ou votre fichier d’annotation",
-        ),
-        (
-            "The other corpus or annotation file",
-            "L’autre corpus ou fichier d’annotation",
-        ),
-        (
-            "The corpus or file that both were copies of",
-            "Le corpus ou fichier dont les deux étaient des copies",
-        ),
-        (
-            "The merged annotation file; - is standard output",
-            "Le fichier d’annotation réuni ; - est la sortie standard",
-        ),
-        (
-            "List the conflicts of merges, or decide some of them",
-            "Énumérer les conflits des fusions, ou en décider",
-        ),
-        (
-            "The conflicts to decide, by their numbers, or all",
-            "Les conflits à décider, par leurs numéros, ou all",
-        ),
-        ("The candidate to take", "La version à retenir"),
-        ("Your candidate stays", "Votre version reste"),
-        (
-            "The other candidate takes its place",
-            "L’autre version la remplace",
-        ),
-        ("Both stay", "Les deux restent"),
-        (
-            "List decided conflicts, too",
-            "Énumérer aussi les conflits décidés",
-        ),
-        (
-            "A change that only one side made is taken over, field by field. Different changes of one field are a conflict: your value stays, and the other one is kept as a candidate until you decide with `chereme conflicts`. OTHER is a copy of the corpus, or an annotation file that was exported from it and changed. If both are annotation files, --to names the merged file, which has the layout of yours; the other side's candidates are then on tiers `NAME (theirs)`. For corpora the common earlier state is found in their history; --base names it for files, and for corpora without a common history. A merge into a corpus is one operation: `chereme undo` takes it back.",
-            "Une modification faite d’un seul côté est reprise, champ par champ. Des modifications différentes d’un même champ forment un conflit : votre valeur reste, et l’autre est gardée jusqu’à ce que vous décidiez avec `chereme conflicts`. OTHER est une copie du corpus, ou un fichier d’annotation qui en a été exporté et modifié. Si les deux sont des fichiers d’annotation, --to nomme le fichier réuni, qui a la mise en page du vôtre ; les versions de l’autre côté sont alors sur des acteurs `NOM (theirs)`. Pour les corpus, l’état commun se trouve dans leur historique ; --base le nomme pour les fichiers, et pour les corpus sans historique commun. Une fusion dans un corpus est une opération : `chereme undo` l’annule.",
-        ),
-        (
-            "Each conflict has your candidate, which is in the corpus, and the other side's. `--take mine` leaves yours, `--take theirs` replaces it with the other one, and `--take both` keeps the two: the second annotation goes on the same tier if there is room, otherwise on a tier `NAME (theirs)`. A decision is an operation: `chereme undo` takes it back.",
-            "Chaque conflit a votre version, qui est dans le corpus, et celle de l’autre côté. `--take mine` laisse la vôtre, `--take theirs` la remplace par l’autre, et `--take both` garde les deux : la seconde annotation va sur le même acteur s’il y a de la place, sinon sur un acteur `NOM (theirs)`. Une décision est une opération : `chereme undo` l’annule.",
-        ),
-    ],
-    lines: &[
-        ("which conflicts?", "quels conflits ?"),
-        ("there are no conflicts", "il n’y a pas de conflits"),
-        (
-            "standard input has no name by which the corpus could find the earlier version of the file",
-            "l’entrée standard n’a pas de nom par lequel le corpus trouve la version d’avant du fichier",
-        ),
-        (
-            "write `chereme import CORPUS - --format eaf --name NAME --merge`",
-            "écrivez `chereme import CORPUS - --format eaf --name NOM --merge`",
-        ),
-        (
-            "a corpus cannot be merged into an annotation file",
-            "un corpus ne se fusionne pas dans un fichier d’annotations",
-        ),
-        ("name the corpus first", "nommez d’abord le corpus"),
-        (
-            "a corpus already has the state from which the file was exported",
-            "un corpus a déjà l’état d’où le fichier a été exporté",
-        ),
-        ("leave --base out", "laissez --base de côté"),
-        (
-            "the merged file needs a name",
-            "le fichier fusionné demande un nom",
-        ),
-        (
-            "write --to merged.eaf, or --to - for standard output",
-            "écrivez --to fusion.eaf, ou --to - pour la sortie standard",
-        ),
-        ("no decision is given", "aucune décision n’est donnée"),
-        (
-            "add --take mine, theirs or both",
-            "ajoutez --take mine, theirs ou both",
-        ),
-        (
-            "`chereme conflicts CORPUS` lists them; `all` means all of them",
-            "`chereme conflicts CORPUS` en donne la liste ; `all` les désigne tous",
-        ),
-        (
-            "name them by their numbers, or write all",
-            "nommez-les par leurs numéros, ou écrivez all",
-        ),
-    ],
-    titles: &[],
-};

@@ -7,7 +7,6 @@ use chereme_corpus::{Function, MilestoneOptions, Progress, Step};
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-use crate::words::Words;
 
 /// Derive the milestones of expressions of the face from glosses and functions, and write them as tiers
 ///
@@ -114,54 +113,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(found)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Derive the milestones of expressions of the face from glosses and functions, and write them as tiers",
-            "Déduire des gloses et des fonctions les jalons des expressions du visage, sous forme d’acteurs",
-        ),
-        (
-            "The tier that names functions; without it those called function, construction, clause type and the like",
-            "L’acteur qui nomme les fonctions ; sinon ceux qui s’appellent fonction, construction, type de phrase, etc.",
-        ),
-        ("Only this recording", "Seulement cet enregistrement"),
-        (
-            "Report the milestones, and write nothing",
-            "Donner les jalons, sans rien écrire",
-        ),
-        (
-            "A tier called \"function\" (or construction, clause type, fonction; any other with --tier) holds an annotation such as wh, yn, negation or topic over the signs of each expression. M1 is the end of the sign before the expression, M2 the start of its first sign, M3 the start of its second sign (negation) or of its last sign (all others), M4 the end of its last sign, and M5 the start of the sign after it. If there is no sign before or after it in the utterance, M1 or M5 lies 500 ms away. The utterance is an annotation of a translation tier if there is one, otherwise the whole recording. An expression over one sign has no M3.",
-            "Un acteur nommé « function » (ou construction, clause type, fonction ; un autre avec --tier) porte une annotation comme wh, yn, negation ou topic au-dessus des signes de chaque expression. M1 est la fin du signe qui précède l’expression, M2 le début de son premier signe, M3 le début de son deuxième signe (negation) ou de son dernier (toutes les autres), M4 la fin de son dernier signe, et M5 le début du signe qui la suit. Sans signe avant ou après elle dans l’énoncé, M1 ou M5 est à 500 ms. L’énoncé est une annotation d’un acteur de traduction s’il y en a un, sinon tout l’enregistrement. Une expression sur un seul signe n’a pas de M3.",
-        ),
-        (
-            "The phases M1-M2, M2-M3, M3-M4 and M4-M5 are written on a tier such as \"milestones wh\". The command never changes phases that a person moved or wrote. `undo` takes the last change back.",
-            "Les phases M1-M2, M2-M3, M3-M4 et M4-M5 sont écrites sur un acteur tel que « milestones wh ». La commande ne change jamais les phases qu’une personne a déplacées ou écrites. `undo` annule la dernière modification.",
-        ),
-        (
-            "`--json` gives \"written\", \"kept\", \"functions\" and \"expressions\", each with \"recording\", \"address\", \"function\", \"signs\", \"m1_us\" to \"m5_us\" (\"m3_us\" is null for one sign), \"corrected\" and \"findings\".",
-            "`--json` donne \"written\", \"kept\", \"functions\" et \"expressions\", chacune avec \"recording\", \"address\", \"function\", \"signs\", \"m1_us\" à \"m5_us\" (\"m3_us\" est null pour un seul signe), \"corrected\" et \"findings\".",
-        ),
-        (
-            "(all functions; nothing is written)",
-            "(toutes les fonctions ; rien n’est écrit)",
-        ),
-        ("(a milestone corrected)", "(un jalon corrigé)"),
-    ],
-    lines: &[
-        (
-            "phases written: {n}; expressions that keep corrected milestones: {kept}",
-            "phases écrites : {n} ; expressions qui gardent des jalons corrigés : {kept}",
-        ),
-        (
-            "no tier names functions; annotate wh, yn, negation or topic on a tier called \"function\"",
-            "aucun acteur ne nomme de fonctions ; annotez wh, yn, negation ou topic sur un acteur appelé \"function\"",
-        ),
-        (
-            "no such expression; the functions are: {names}",
-            "pas de telle expression ; les fonctions sont : {names}",
-        ),
-    ],
-    titles: &[("address", "adresse")],
-};

@@ -50,10 +50,8 @@ use clap::Subcommand;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Declares the commands: the name, the function that runs it with its options, and a change of its errors, if any.
-/// `WORDS` of the module holds the French of what the command prints.
 macro_rules! commands {
     ($($name:ident => $module:ident::$run:ident($args:ident) $(or $mend:ident)?;)*) => {
         /// The commands.
@@ -68,9 +66,6 @@ macro_rules! commands {
                 $(Command::$name(args) => $module::$run(cli, args, output).map(Ended::code)$(.map_err($mend))?,)*
             }
         }
-
-        /// The French of every command.
-        pub(crate) const WORDS: &[&Words] = &[$(&$module::WORDS),*];
     };
 }
 

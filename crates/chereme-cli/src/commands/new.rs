@@ -8,7 +8,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Create an empty corpus with the inventories of handshapes, placements, movements and the rest
 #[derive(Debug, clap::Args)]
@@ -22,19 +21,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     output.document(json!({ "corpus": corpus.path() }))?;
     output.line(format!("made {}", corpus.path().display()))
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Create an empty corpus with the inventories of handshapes, placements, movements and the rest",
-            "Créer un corpus vide avec les inventaires de configurations, emplacements, mouvements et autres",
-        ),
-        (
-            "The file to create, such as lsf.chereme; it must not exist yet",
-            "Le fichier à créer, comme lsf.chereme ; il ne doit pas encore exister",
-        ),
-    ],
-    lines: &[],
-    titles: &[],
-};

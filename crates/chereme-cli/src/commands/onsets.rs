@@ -7,7 +7,6 @@ use chereme_corpus::{Function, Progress, Quartiles, Step};
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-use crate::words::Words;
 
 /// Measure when non-manuals begin and end relative to the signs that they span, for each function
 ///
@@ -95,40 +94,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(found)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Measure when non-manuals begin and end relative to the signs that they span, for each function",
-            "Mesurer quand les éléments non manuels commencent et finissent par rapport aux signes qu’ils couvrent, pour chaque fonction",
-        ),
-        (
-            "A channel of the face or head begins when it is halfway from its value half a second before the expression to its most extreme value over the signs, and ends when it is halfway back; one that is not back half a second after M5 has no end. Onsets are in seconds after the start of the first sign (negative: before it), and ends in seconds after the end of the last sign. The functions are those of `milestones`.",
-            "Un canal du visage ou de la tête commence quand il est à mi-chemin entre sa valeur une demi-seconde avant l’expression et sa valeur la plus extrême pendant les signes, et finit quand il est revenu à mi-chemin ; s’il n’est pas revenu une demi-seconde après M5, il n’a pas de fin. Les débuts sont en secondes après le début du premier signe (négatif : avant lui), les fins en secondes après la fin du dernier. Les fonctions sont celles de `milestones`.",
-        ),
-        (
-            "`--json` gives \"expressions\", \"without_face\", \"with_gaps\", \"too_long\" and \"rows\", each with \"function\", \"channel\", \"n\", \"onset_s\" (\"q1\", \"median\", \"q3\"), \"ends\" and \"offset_s\", which is null without ends.",
-            "`--json` donne \"expressions\", \"without_face\", \"with_gaps\", \"too_long\" et \"rows\", chacune avec \"function\", \"channel\", \"n\", \"onset_s\" (\"q1\", \"median\", \"q3\"), \"ends\" et \"offset_s\", qui est null sans fins.",
-        ),
-    ],
-    lines: &[
-        (
-            "expressions: {n}; without a face: {none}",
-            "expressions : {n} ; sans visage : {none}",
-        ),
-        (
-            "expressions during which nothing was measured at times: {n}",
-            "expressions pendant lesquelles rien n’a été mesuré par moments : {n}",
-        ),
-        (
-            "expressions of more than half an hour, which were not examined: {n}; annotate shorter ones",
-            "expressions de plus d’une demi-heure, qui n’ont pas été examinées : {n} ; annotez-en de plus courtes",
-        ),
-    ],
-    titles: &[
-        ("n of ends", "n des fins"),
-        ("begins: median (quartiles)", "début : médiane (quartiles)"),
-        ("ends: median (quartiles)", "fin : médiane (quartiles)"),
-    ],
-};

@@ -9,7 +9,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Count the minimal pairs of a lexicon
 ///
@@ -86,47 +85,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(document)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Count the minimal pairs of a lexicon",
-            "Compter les paires minimales d’un lexique",
-        ),
-        (
-            "The fields to compare, separated by commas, or a set of Signbank's columns: S13, F8, F7, F5, C3",
-            "Les champs à comparer, séparés par des virgules, ou un ensemble de colonnes de Signbank : S13, F8, F7, F5, C3",
-        ),
-        (
-            "The treatment of empty fields",
-            "Le traitement des champs vides",
-        ),
-        ("List the pairs", "Énumérer les paires"),
-        (
-            "Two signs are a minimal pair if exactly one of the fields differs. Fields are columns of an imported table, whose cells are compared as written, or fields of queries such as dominant.configuration, by which citation forms are compared.",
-            "Deux signes forment une paire minimale si un seul des champs diffère. Les champs sont les colonnes d’une table importée, dont les cellules sont comparées telles qu’écrites, ou des champs de requête comme dominant.configuration, sur lesquels les formes de citation sont comparées.",
-        ),
-        (
-            "An empty field is a value like any other",
-            "Un champ vide est une valeur comme une autre",
-        ),
-        (
-            "An empty field is unknown: signs with an empty field do not count",
-            "Un champ vide est inconnu : les signes qui en ont un ne comptent pas",
-        ),
-    ],
-    lines: &[
-        (
-            "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both values are given",
-            "paires : {n}, de {signs} signes ({all} comparés par {fields}), dont certaines : {certain} (les deux valeurs sont données)",
-        ),
-        (
-            "homonyms: {n} pairs in {groups} groups of {signs} signs; {forms} forms",
-            "homonymes : paires {n}, groupes {groups}, signes {signs}, formes {forms}",
-        ),
-        ("by field: {list}", "par champ : {list}"),
-        ("in most pairs: {list}", "dans le plus de paires : {list}"),
-    ],
-    titles: &[],
-};

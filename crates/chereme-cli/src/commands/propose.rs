@@ -12,7 +12,6 @@ use clap::builder::PossibleValue;
 
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-use crate::words::Words;
 
 /// Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings
 ///
@@ -115,62 +114,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(proposed)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Propose values of a component from movement, for tokens without a value of it; or run a detector on recordings",
-            "Proposer d’après le mouvement des valeurs d’un composant, pour les occurrences qui n’en ont pas ; ou lancer un détecteur sur des enregistrements",
-        ),
-        (
-            "Run this detector on every recording, or on that of --for",
-            "Lancer ce détecteur sur tous les enregistrements, ou sur celui de --for",
-        ),
-        (
-            "The component: configuration (or handshape), placement, movement or orientation; without it all four",
-            "Le composant : configuration (ou handshape), placement, movement ou orientation ; sinon les quatre",
-        ),
-        (
-            "Only for the tokens of this recording, or for this token",
-            "Seulement pour les occurrences de cet enregistrement, ou pour cette occurrence",
-        ),
-        (
-            "Accept these proposals, by the numbers of their annotations, as codings of your own",
-            "Accepter ces propositions, par les numéros de leurs annotations, comme vos propres codages",
-        ),
-        (
-            "The movement of each token is transcribed, and the values are written on separate tiers, such as \"configuration dominant (proposed)\", as annotations of a detector. They never mix with a person's codings. A call is one operation, which `undo` takes back. Ctrl-C stops it and leaves the corpus as it was.",
-            "Le mouvement de chaque occurrence est transcrit, et les valeurs sont écrites sur des acteurs à part, comme « configuration dominant (proposed) », en annotations d’un détecteur. Elles ne se mêlent jamais aux codages d’une personne. Un appel est une opération, que `undo` annule. Ctrl-C l’arrête et laisse le corpus tel qu’il était.",
-        ),
-        (
-            "With --detector no transcription runs: the detector examines whole recordings, and its detections are written on tiers such as \"movement.phase right (proposed)\", where they replace earlier ones that nobody has changed.",
-            "Avec --detector rien n’est transcrit : le détecteur examine des enregistrements entiers, et ce qu’il trouve est écrit sur des acteurs comme « movement.phase right (proposed) », à la place de ses propositions d’avant que personne n’a modifiées.",
-        ),
-        (
-            "`--json` gives \"tokens\" and \"annotations\", the numbers of those that were written, \"unread\", the number of tokens whose movement could not be transcribed, and \"recordings\", the names of those with new annotations. With --detector it gives \"detector\", \"annotations\", \"recordings\", \"unobserved\", the number of recordings without the part that the detector examines, and \"found\", the proposals of each recording with tier, times, value, confidence and evidence.",
-            "`--json` donne \"tokens\" et \"annotations\", les nombres de celles qui ont été écrites, \"unread\", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, et \"recordings\", les noms de ceux qui ont de nouvelles annotations. Avec --detector il donne \"detector\", \"annotations\", \"recordings\", \"unobserved\", le nombre d’enregistrements sans la partie que le détecteur examine, et \"found\", les propositions de chaque enregistrement avec acteur, temps, valeur, confiance et indices.",
-        ),
-        (
-            "(finds proposed codings, too)",
-            "(trouve aussi les codages proposés)",
-        ),
-        ("(takes all of them back)", "(les retire tous)"),
-    ],
-    lines: &[
-        ("{n} accepted", "accepté : {n}"),
-        (
-            "proposed: {annotations} in {recordings}",
-            "proposé : {annotations} dans {recordings}",
-        ),
-        (
-            "nothing to examine in {recordings}",
-            "rien à examiner dans {recordings}",
-        ),
-        (
-            "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
-            "{annotations} dans {recordings}, pour {tokens} ; illisible dans le mouvement : {unread}",
-        ),
-    ],
-    titles: &[],
-};

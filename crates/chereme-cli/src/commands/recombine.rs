@@ -11,7 +11,6 @@ use serde_json::json;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
 use crate::streams;
-use crate::words::Words;
 
 const SOURCES: &str = "\
 Sources: what a recipe begins with
@@ -150,77 +149,3 @@ pub(super) fn print(
     }
     output.document(document)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Compose a new sign from stored ones, and store it",
-            "Composer un nouveau signe à partir d’autres, et l’enregistrer",
-        ),
-        (
-            "The recipe, as text or JSON; - is standard input",
-            "La recette, en texte ou en JSON ; - est l’entrée standard",
-        ),
-        (
-            "Replace a sign that was generated before; it keeps its gloss, its token and the annotations that people wrote on its tiers",
-            "Remplacer un signe généré auparavant ; il garde sa glose, son occurrence et les annotations que des personnes ont mises sur ses acteurs",
-        ),
-        (
-            "Explain the sign: its steps, the source of each channel, joins and residuals",
-            "Expliquer le signe : les étapes, la source de chaque canal, les raccords et les écarts",
-        ),
-        (
-            "Draw the sign to a contact sheet (.png), an animation (.gif) or a film (.mp4)",
-            "Dessiner le signe en planche (.png), en animation (.gif) ou en film (.mp4)",
-        ),
-        (
-            "A recipe is a sign and the changes to it: ESCARGOT | configure right U. The new sign gets its own tiers and is found by search like a captured one; its recipe is stored with it. Quote the recipe for your shell.",
-            "Une recette est un signe et ce qu’on en fait : ESCARGOT | configure right U. Le nouveau signe a ses propres acteurs et se trouve par la recherche comme un signe capté ; sa recette est enregistrée avec lui. Mettez la recette entre guillemets pour votre interpréteur de commandes.",
-        ),
-        (
-            "Sources: what a recipe begins with",
-            "Sources : par quoi une recette commence",
-        ),
-        (
-            "a sign of the corpus, with movement or as notation",
-            "un signe du corpus, avec mouvement ou en notation",
-        ),
-        (
-            "a whole recording, by its name if no sign has that name",
-            "un enregistrement entier, par son nom si aucun signe ne le porte",
-        ),
-        (
-            "a word in a manual alphabet",
-            "un mot dans un alphabet manuel",
-        ),
-        (
-            "reaching for a point: to the left, up from the floor, forward",
-            "vers un point : à gauche, au-dessus du sol, en avant",
-        ),
-        ("notation", "de la notation"),
-        (
-            "Operators: the changes, one after another, each after |",
-            "Opérateurs : les changements, l’un après l’autre, chacun après |",
-        ),
-        (
-            "One after the other, with transitions",
-            "L’un après l’autre, avec des transitions",
-        ),
-    ],
-    lines: &[
-        (
-            "{gloss} was there already and stays; --replace {other} instead of --as puts a sign in its place",
-            "{gloss} existait déjà et reste ; --replace {other} au lieu de --as met un signe à sa place",
-        ),
-        (
-            "stored {gloss} as token:{token}, recording {name}, {seconds} s: {recipe}",
-            "{gloss} enregistré : token:{token}, enregistrement {name}, {seconds} s : {recipe}",
-        ),
-        (
-            "{seconds} s, not stored (give it a gloss with --as): {recipe}",
-            "{seconds} s, pas enregistré (donnez-lui une glose avec --as) : {recipe}",
-        ),
-    ],
-    titles: &[],
-};

@@ -8,7 +8,6 @@ use chereme_corpus::{Address, Picture, PictureOptions, Progress, SPEEDS};
 use crate::args::{Cli, SideWord};
 use crate::output::{Bar, Output};
 use crate::streams;
-use crate::words::Words;
 
 /// Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)
 ///
@@ -162,89 +161,3 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
         picture.bytes.div_ceil(1024)
     ))
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Draw movement as a contact sheet (.png), an animation (.gif) or a film (.mp4), handshapes (.png), or notation (.svg)",
-            "Dessiner un mouvement en planche (.png), en animation (.gif) ou en film (.mp4), des configurations (.png), ou une notation (.svg)",
-        ),
-        (
-            "The number of pictures per second in a film, from 1 to 120",
-            "Le nombre d’images par seconde d’un film, de 1 à 120",
-        ),
-        (
-            "Write glosses below an animation or a film while they are signed",
-            "Écrire les gloses sous une animation ou un film pendant qu’elles sont signées",
-        ),
-        ("What to draw", "Quoi dessiner"),
-        (
-            "The picture to write; its extension determines the kind; - is standard output",
-            "L’image à écrire ; son extension en détermine le genre ; - est la sortie standard",
-        ),
-        (
-            "The kind of picture for standard output: png, gif, mp4 or svg",
-            "Le genre d’image pour la sortie standard : png, gif, mp4 ou svg",
-        ),
-        (
-            "The number of pictures side by side in a contact sheet, from 1 to 64",
-            "Le nombre d’images côte à côte dans une planche, de 1 à 64",
-        ),
-        (
-            "Leave out the close-ups of hands and face",
-            "Sans les gros plans des mains et du visage",
-        ),
-        (
-            "The hand on which handshapes are drawn",
-            "La main sur laquelle une configuration est dessinée",
-        ),
-        (
-            "The height of one picture in pixels, from 32 to 2000; without it 260, for films 540, for handshapes 128, for faces 160",
-            "La hauteur d’une image, en pixels, de 32 à 2000 ; sinon 260, pour les films 540, pour les configurations 128, pour les visages 160",
-        ),
-        (
-            "The speed of an animation, from 0.05 to 20; 1 is the recorded speed",
-            "La vitesse de l’animation, de 0.05 à 20 ; 1 est la vitesse d’origine",
-        ),
-        (
-            "Show a close-up of the face next to the signer, in every picture",
-            "Montrer un gros plan du visage à côté du signeur, dans chaque image",
-        ),
-        (
-            "WHAT is a gloss, a recording's name, token:41, recording:3, recording:\"NGT Thanks\", or inventory:configurations or inventory:configurations/U for handshapes. If a sign has only a notation, the program animates it first. The program draws the symbols of HamNoSys without a font; inventory:hamnosys shows all of them. inventory:faces shows the face for each non-manual of SiGML. Several WHAT are drawn next to each other in one film or animation: they begin together, and the shorter ones stop at their last picture. Films are in H.264, which every player, browser and office program can show.",
-            "WHAT est une glose, le nom d’un enregistrement, token:41, recording:3, recording:\"NGT Thanks\", ou inventory:configurations ou inventory:configurations/U pour les configurations. Si un signe n’a qu’une notation, le programme l’anime d’abord. Le programme dessine les symboles de HamNoSys sans police ; inventory:hamnosys les montre tous. inventory:faces montre le visage de chaque non-manuel de SiGML. Plusieurs WHAT sont dessinés côte à côte dans un film ou une animation : ils commencent ensemble, et les plus courts s’arrêtent sur leur dernière image. Les films sont en H.264, que tout lecteur, navigateur et logiciel de bureau sait montrer.",
-        ),
-    ],
-    lines: &[
-        (
-            "drew {what} to {path}: {n} frames, {size} KB",
-            "{what} dessiné dans {path} : {n} images, {size} Ko",
-        ),
-        (
-            "drew {what} to {path}: 1 frame, {size} KB",
-            "{what} dessiné dans {path} : 1 image, {size} Ko",
-        ),
-        (
-            "drew {what} to {path}: {n} symbols, {size} KB",
-            "{what} dessiné dans {path} : {n} symboles, {size} Ko",
-        ),
-        (
-            "drew {what} to {path}: 1 symbol, {size} KB",
-            "{what} dessiné dans {path} : 1 symbole, {size} Ko",
-        ),
-        (
-            "{name} has no movement of its own: its notation was animated on {body}",
-            "{name} n’a pas de mouvement à lui : sa notation a été animée sur {body}",
-        ),
-        (
-            "{name} has no notation: it was transcribed from its movement, and not stored",
-            "{name} n’a pas de notation : il a été transcrit de son mouvement, sans être enregistré",
-        ),
-        (
-            "a speed is a number from {least} to {most}",
-            "une vitesse est un nombre de {least} à {most}",
-        ),
-    ],
-    titles: &[],
-};

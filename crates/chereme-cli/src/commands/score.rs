@@ -7,7 +7,6 @@ use chereme_corpus::{Address, Corpus, Function, ScoreOptions};
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Measure the similarity of two pieces of movement, and align them
 ///
@@ -124,59 +123,3 @@ fn faces(corpus: &Corpus, both: [&Address; 2], args: &Args, output: &mut Output)
     output.table(&["channel", "mean difference"], &rows)?;
     output.document(score)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Measure the similarity of two pieces of movement, and align them",
-            "Mesurer la ressemblance de deux mouvements, et les aligner",
-        ),
-        (
-            "The first piece: a gloss, token:41 or recording:3",
-            "Le premier mouvement : une glose, token:41 ou recording:3",
-        ),
-        ("The second piece", "Le second mouvement"),
-        (
-            "Draw the alignment to a picture (.png)",
-            "Dessiner l’alignement dans une image (.png)",
-        ),
-        (
-            "Compare expressions of the face phase by phase instead of movement; see `milestones` and `choose`",
-            "Comparer phase par phase les expressions du visage au lieu du mouvement ; voir `milestones` et `choose`",
-        ),
-        (
-            "The function of the expressions, if there are several",
-            "La fonction des expressions, s’il y en a plusieurs",
-        ),
-        (
-            "The score is the distance under dynamic time warping, over placement, movement, orientation and configuration, each in its own scale; 0 is the same movement. Handshapes of hands that nobody captured, whose fingers rest throughout, are not compared; \"findings\" and \"left_out\" of `--json` list them.",
-            "Le score est la distance par déformation temporelle dynamique, sur l’emplacement, le mouvement, l’orientation et la configuration, chacun à son échelle ; 0 est le même mouvement. Les configurations de mains que personne n’a captées, dont les doigts restent au repos, ne sont pas comparées ; « findings » et « left_out » de `--json` les nomment.",
-        ),
-    ],
-    lines: &[
-        (
-            "distance {n} in all, {mean} for each frame of the two (0: the same movement; each part is in its own scale)",
-            "distance {n} en tout, {mean} par image des deux (0 : le même mouvement ; chaque partie a sa propre échelle)",
-        ),
-        (
-            "largest distance of a joint: {cm} cm",
-            "plus grande distance d’une articulation : {cm} cm",
-        ),
-        ("alignment: {n}", "alignement : {n}"),
-        (
-            "score {n} (0: alike); without the ratio of lengths {other}, ratio {ratio}; a phase is empty in one of them and left out",
-            "score {n} (0 : pareil) ; sans le rapport des durées {other}, rapport {ratio} ; une phase est vide dans l’un des deux et laissée de côté",
-        ),
-        (
-            "score {n} (0: alike); without the ratio of lengths {other}, ratio {ratio}",
-            "score {n} (0 : pareil) ; sans le rapport des durées {other}, rapport {ratio}",
-        ),
-    ],
-    titles: &[
-        ("distance a frame", "distance par image"),
-        ("mean difference", "écart moyen"),
-        ("milestones", "jalons"),
-        ("path", "chemin"),
-    ],
-};

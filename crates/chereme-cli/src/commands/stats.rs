@@ -1,7 +1,5 @@
 //! `chereme stats`: the statistics of a lexicon.
 
-mod french;
-
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
@@ -14,8 +12,6 @@ use chereme_corpus::{
 use super::pairs::EmptyWord;
 use crate::args::Cli;
 use crate::output::{Bar, Output};
-
-pub(super) use french::WORDS;
 
 /// Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
 ///

@@ -12,7 +12,6 @@ use chereme_corpus::Error;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// The program that opens the window. It is a program of its own, so that this one is built without a window's crates.
 const PROGRAM: &str = "chereme-studio";
@@ -81,36 +80,6 @@ fn hand_over(command: &mut process::Command) -> io::Result<ExitCode> {
     let code = code.and_then(|code| u8::try_from(code).ok());
     Ok(code.map_or(ExitCode::FAILURE, ExitCode::from))
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Open the workbench: annotate, search and recombine in a window",
-            "Ouvrir l’atelier : annoter, chercher et recombiner dans une fenêtre",
-        ),
-        ("The corpus to open", "Le corpus à ouvrir"),
-        (
-            "The folder for the settings and the starter corpus, instead of the platform's",
-            "Le dossier des réglages et du corpus de départ, à la place de celui du système",
-        ),
-        (
-            "Without a corpus the window offers the starter corpus, recent corpora, and the import of a folder. The settings are in the file chereme/studio.json of the platform's settings folder; --language changes the language there. F1 shows the keys: ELAN's, Praat's or a video editor's.",
-            "Sans corpus, la fenêtre propose le corpus de départ, les corpus récents, et l’import d’un dossier. Les réglages sont dans le fichier chereme/studio.json du dossier de réglages du système ; --language y change la langue. F1 montre les touches : celles d’ELAN, de Praat ou d’un montage vidéo.",
-        ),
-    ],
-    lines: &[
-        (
-            "the window is a program of its own, chereme-studio, and neither the folder of this program nor the path has it",
-            "la fenêtre est un programme à part, chereme-studio, et ni le dossier de ce programme ni le PATH ne l’ont",
-        ),
-        (
-            "in a checkout, build it with `cargo build --release`; elsewhere, install it with `cargo install --path crates/chereme-studio`",
-            "dans un dépôt, compilez-le avec `cargo build --release` ; ailleurs, installez-le avec `cargo install --path crates/chereme-studio`",
-        ),
-    ],
-    titles: &[],
-};
 
 #[cfg(test)]
 mod tests {

@@ -7,7 +7,6 @@ use chereme_corpus::Partner;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// Suggest new signs that could be composed from a sign
 ///
@@ -76,36 +75,3 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     output.document(found)
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "Suggest new signs that could be composed from a sign",
-            "Suggérer de nouveaux signes à composer à partir d’un signe",
-        ),
-        (
-            "The sign: a gloss or token:41",
-            "Le signe : une glose ou token:41",
-        ),
-        (
-            "Lists the signs that differ from it in exactly one field (minimal pairs), each with a recipe if one generates it from the sign, and the values that no sign combines with the rest of its coding.",
-            "Énumère les signes qui en diffèrent par un seul champ (paires minimales), chacun avec une recette si l’une le compose à partir du signe, et les valeurs qu’aucun signe ne combine avec le reste de son codage.",
-        ),
-    ],
-    lines: &[
-        (
-            "possible pairs, in which one sign is not coded for all fields ({n} of {all}):",
-            "paires possibles, où un signe n’est pas codé pour tous les champs ({n} sur {all}) :",
-        ),
-        (
-            "values of {field} that no sign has with the rest: {list}",
-            "valeurs de {field} qu’aucun signe n’a avec le reste : {list}",
-        ),
-        (
-            "no sign differs from it in one component only",
-            "aucun signe n’en diffère par un seul composant",
-        ),
-    ],
-    titles: &[("alike in", "pareils en")],
-};

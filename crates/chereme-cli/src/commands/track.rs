@@ -8,7 +8,6 @@ use serde_json::json;
 
 use crate::args::Cli;
 use crate::output::Output;
-use crate::words::Words;
 
 /// List the tracks of a recording, or move, align, rename or remove one of them
 ///
@@ -209,73 +208,6 @@ fn shown(tracks: &[TrackRow], output: &mut Output) -> Result<()> {
         .collect();
     output.document(json!({ "total": rows.len(), "rows": rows }))
 }
-
-/// The French words of the command.
-pub(super) const WORDS: Words = Words {
-    help: &[
-        (
-            "List the tracks of a recording, or move, align, rename or remove one of them",
-            "Énumérer les pistes d’un enregistrement, ou en décaler, caler, renommer ou supprimer une",
-        ),
-        (
-            "The recording, such as recording:3 or recording:\"NGT Thanks\"",
-            "L’enregistrement, comme recording:3 ou recording:\"NGT Thanks\"",
-        ),
-        ("The track's name", "Le nom de la piste"),
-        (
-            "The new path of a film or another media file that was moved",
-            "Le nouveau chemin d’un film ou d’un autre média qui a été déplacé",
-        ),
-        (
-            "The new start of the track on the recording's clock, such as 0.48s or -12ms",
-            "Le nouveau début de la piste sur l’horloge de l’enregistrement, comme 0.48s ou -12ms",
-        ),
-        ("The new name of the track", "Le nouveau nom de la piste"),
-        (
-            "Remove the track with all its data",
-            "Supprimer la piste avec toutes ses données",
-        ),
-        (
-            "The joints, points or curves of the track whose speeds are compared",
-            "Les articulations, points ou courbes de la piste dont on compare les vitesses",
-        ),
-        (
-            "The joints, points or curves of the other track",
-            "Les articulations, points ou courbes de l’autre piste",
-        ),
-        (
-            "The largest shift from the present offset",
-            "Le plus grand écart au décalage actuel",
-        ),
-        (
-            "Move the track to the offset that was found",
-            "Déplacer la piste au décalage trouvé",
-        ),
-        (
-            "Align the track with this one: find the offset with the most similar speeds, of the wrists if no channel is named",
-            "Caler la piste sur celle-ci : trouver le décalage où les vitesses se ressemblent le plus, celles des poignets si aucun canal n’est nommé",
-        ),
-        (
-            "A recording has any number of tracks on one clock: movement of skeletons, markers, curves, media. Without an option the tracks are listed. `chereme import CORPUS FILE --into recording:3 --offset 0.48s` imports a file's tracks into an existing recording.",
-            "Un enregistrement a autant de pistes que voulu sur une seule horloge : mouvements de squelettes, marqueurs, courbes, médias. Sans option, les pistes sont énumérées. `chereme import CORPUS FILE --into recording:3 --offset 0.48s` apporte les pistes d’un fichier à un enregistrement existant.",
-        ),
-    ],
-    lines: &[
-        (
-            "{track} starts at {time} s (now {now} s): correlation {r} with {other}, elsewhere at most {most}, confidence {sure}",
-            "{track} commence à {time} s (maintenant {now} s) : corrélation {r} avec {other}, ailleurs au plus {most}, confiance {sure}",
-        ),
-        (
-            "this is uncertain: look at both tracks before you use it, or name other channels",
-            "c’est incertain : regardez les deux pistes avant de vous en servir, ou nommez d’autres canaux",
-        ),
-        (
-            "write a time in seconds such as 0.48s, or 480ms",
-            "écrivez un temps en secondes comme 0.48s, ou 480ms",
-        ),
-    ],
-    titles: &[("duration_s", "durée_s"), ("rate", "cadence")],
-};
 
 #[cfg(test)]
 mod tests {

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use super::*;
 use crate::{args::Cli, remedies};
-use chereme_corpus::words::forms;
 use chereme_tests::repository;
 use clap::CommandFactory;
 
@@ -82,36 +81,6 @@ fn every_note_behind_an_example_has_a_french_form() {
     }
     assert!(notes > 20, "{notes} notes are found");
     assert!(missing.is_empty(), "{}", missing.join("\n"));
-}
-
-#[test]
-fn no_english_text_has_two_french_forms() {
-    let kinds: [fn(&Words) -> Forms; 3] = [|it| it.help, |it| it.lines, |it| it.titles];
-    for kind in kinds {
-        let mut known = BTreeMap::new();
-        for (english, french) in all().flat_map(kind) {
-            assert!(!french.trim().is_empty(), "{english}");
-            let first = known.insert(english, french);
-            assert!(
-                first.is_none_or(|it| it == french),
-                "{english}: {first:?}, {french}"
-            );
-        }
-    }
-}
-
-#[test]
-fn no_form_of_a_line_hides_another() {
-    let own: Vec<Forms> = all().map(|it| it.lines).collect();
-    let mut hidden = Vec::new();
-    for (english, french) in forms(&own) {
-        let said = message(english, Language::French);
-        let sides = ["{side}", "{limb}"].iter().any(|it| english.contains(it));
-        if !sides && said.as_deref() != Some(french) {
-            hidden.push(format!("{english}: {said:?}"));
-        }
-    }
-    assert!(hidden.is_empty(), "{}", hidden.join("\n"));
 }
 
 #[test]

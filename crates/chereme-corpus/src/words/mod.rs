@@ -1,14 +1,16 @@
 //! Words shared by the command line and the window, in English and French.
 //!
-//! A text is a constant of its table; `{name}` in it is filled by [`fill`]. To add one, write a line
-//! into the table of its part; to add a table, name it in `TABLES` of the tests below.
+//! Messages, help, titles and guides lie in the files of `schema/words`, one for each room and language. To add one, write it
+//! into the file of its room in each language, under the same id. A text of the tables here is a constant; `{name}` in it is
+//! filled by [`fill`]. To add one, write a line into the table of its part; to add a table, name it in `TABLES` of the tests below.
 
 use std::fmt::Display;
 
 pub use chereme_sign::words::{Language, Text};
 pub use count::{counted, counted_in, numbered};
-pub use guides::{guide, guide_among};
-pub use messages::{Forms, forms, message, message_among};
+pub use guides::guide;
+use messages::described_messages;
+pub use messages::message;
 
 /// Declares the texts of one part.
 macro_rules! texts {
@@ -22,39 +24,33 @@ macro_rules! texts {
     };
 }
 
-mod agreeing;
-mod asking;
-mod captures;
-mod coding;
-mod composing;
 mod count;
-mod counting;
 pub mod deeds;
 pub mod deletion;
-mod documents;
-mod editing;
-mod filming;
-mod findings;
-mod foreign;
 #[cfg(test)]
 #[path = "tests/french.rs"]
 mod french;
 mod guides;
 pub mod history;
-mod importing;
-mod lines;
 pub mod merge;
 mod messages;
-mod moving;
-mod notes;
 mod parts;
-mod pointed;
-mod publishing;
-mod queries;
-mod reading;
+mod phrases;
 pub mod reporting;
-mod studies;
 pub mod trouble;
+
+/// Returns a text of the help of commands in `language`; nothing for English, or if the files of words lack it.
+#[must_use]
+pub fn help_text(english: &str, language: Language) -> Option<&'static str> {
+    phrases::phrase_book(language)?.fixed_text("help", english)
+}
+
+/// Returns the title of a column in `language`; a title that the files of words lack stays as it is.
+#[must_use]
+pub fn column_title(title: &str, language: Language) -> &str {
+    let known = phrases::phrase_book(language).and_then(|book| book.fixed_text("title", title));
+    known.unwrap_or(title)
+}
 
 /// Returns `text` with each `{name}` replaced by its value in `values`.
 #[must_use]

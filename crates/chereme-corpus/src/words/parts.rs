@@ -63,40 +63,6 @@ pub(super) fn side_in_french(blank: &str, side: &str) -> Option<&'static str> {
     })
 }
 
-/// Returns `other` filled with the variable parts of `text`, each converted by `convert`; nothing if `text` does not have
-/// the form `form`.
-///
-/// `convert` also gets the name of the blank.
-pub(super) fn carried(
-    text: &str,
-    form: &str,
-    other: &str,
-    convert: &dyn Fn(&str, &str) -> String,
-) -> Option<String> {
-    // A form of one line fits no text of several, whose parts it would mix.
-    if text.contains('\n') && !form.contains('\n') {
-        return None;
-    }
-    let mut values = Vec::new();
-    let mut parts = form.split('{');
-    let mut rest = text.strip_prefix(parts.next()?)?;
-    for part in parts {
-        let (name, literal) = part.split_once('}')?;
-        let end = match literal {
-            "" => rest.len(),
-            _ => rest.find(literal)?,
-        };
-        values.push((name, &rest[..end]));
-        rest = &rest[end + literal.len()..];
-    }
-    rest.is_empty().then(|| {
-        let filled = |filled: String, (name, value): &(&str, &str)| {
-            filled.replace(&format!("{{{name}}}"), &convert(name, value))
-        };
-        values.iter().fold(other.to_owned(), filled)
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use crate::words::{Language, message};

@@ -131,42 +131,6 @@ texts! {
     OUT_OF_RANGE: "a level, count or bound is out of range", "un seuil, un compte ou une borne est hors limites";
 }
 
-/// Messages and remedies about reports.
-pub(super) const REPORTS: &[(&str, &str)] = &[
-    (
-        "a report cannot be written as .{ending}",
-        "un rapport ne peut pas être écrit en .{ending}",
-    ),
-    (
-        "give a name that ends in .html or .json, or a folder",
-        "donnez un nom qui se termine par .html ou .json, ou un dossier",
-    ),
-    (
-        "the report cannot be written: {error}",
-        "le rapport ne peut pas être écrit : {error}",
-    ),
-    (
-        "no trial has the condition {name}",
-        "aucun essai n’a la condition {name}",
-    ),
-    (
-        "conditions of the plan: {list}",
-        "conditions du plan : {list}",
-    ),
-    (
-        "the trials have a measure {name} already",
-        "les essais ont déjà une mesure {name}",
-    ),
-    (
-        "give the column of the table another name",
-        "donnez un autre nom à la colonne du tableau",
-    ),
-    (
-        "a table cannot be written: {error}",
-        "un tableau ne peut pas être écrit : {error}",
-    ),
-];
-
 /// Returns the words for the reason why a statistic has no value.
 #[must_use]
 pub fn undefined(why: Undefined) -> Text {

@@ -1,7 +1,6 @@
 //! `chereme study`: perceptual studies, from the plan to the answers.
 
 mod answers;
-mod french;
 mod report;
 
 use std::path::PathBuf;
@@ -20,8 +19,6 @@ use clap::{Subcommand, ValueEnum};
 use super::import::print_finding;
 use crate::args::{Cli, read_text};
 use crate::output::{Bar, Output};
-
-pub(super) use french::WORDS;
 
 /// Run a perceptual study: plan it, build its questionnaire, import the answers, report on them
 ///

@@ -1,0 +1,34 @@
+## Messages: `{ $name }` is a variable part.
+
+message-agreeing-both-tiers-empty = both tiers empty
+message-agreeing-one-value-only = one value only
+message-agreeing-no-item-has-two-values = no item has two values
+message-agreeing-values-missing = values are missing
+message-agreeing-no-disagreement-expected-by-chance = no disagreement is expected by chance
+message-agreeing-no-boundary = no boundary
+message-agreeing-units-with-gaps-between-them = units with gaps between them
+message-agreeing-too-many-units-overlap = too many units overlap
+message-agreeing-too-many-units-overlap-aligned-disagreements = too many units of { $recording } overlap to be aligned: its disagreements are those of units matched by overlap
+message-agreeing-no-annotation-has-value-so-only = no annotation has a value, so only spans are compared
+message-agreeing-annotations-without-value-left-out = annotations without a value are left out: { $n } of { $a }, { $m } of { $b }
+message-agreeing-several-tiers-could-belong-name-both = several tiers of { $recording } could belong to { $tier }: name both by name or number
+message-agreeing-no-measure-called = no measure is called { $name }
+message-agreeing-measures = the measures are: { $names }
+message-agreeing-units-match-if-51-100-longer = units match if 51 to 100 % of the longer one overlap
+message-agreeing-elan-s-60-usual = ELAN's 60 % is usual
+message-agreeing-draws-more-than-made-at-most = { $n } draws are more than the { $most } that are made at most
+message-agreeing-1000-draws-30-samples-usual = 1000 draws and 30 samples are usual
+message-agreeing-tier-would-compared-with-itself = the tier { $tier } of { $recording } would be compared with itself
+message-agreeing-name-tier-other-annotator = name the tier of the other annotator
+message-agreeing-no-tier-has-annotator-did-you = no tier has the annotator { $name }; did you mean { $other }?
+message-agreeing-no-tier-has-annotator = no tier has the annotator { $name }
+message-agreeing-chereme-list-corpus-tiers-shows-annotator = `chereme list CORPUS tiers` shows the annotator of each tier
+message-agreeing-no-recording-has-both-did-you = no recording has both { $a } and { $b }; did you mean { $name }?
+message-agreeing-no-recording-has-both = no recording has both { $a } and { $b }
+message-agreeing-chereme-list-corpus-tiers-lists-all = `chereme list CORPUS tiers` lists all tiers; write their names, "*-A" and "*-B", annotator:NAME, or tier:12
+message-agreeing-two-tiers-belong-different-recordings = the two tiers belong to different recordings
+message-agreeing-copy-one-them-recording-other-then = copy one of them to the recording of the other, then adjudicate
+message-agreeing-annotation-at-s-has-no-length = the annotation { $value } at { $s } s has no length, so it cannot go onto a third tier
+message-agreeing-give-end-after-start-delete-then = give it an end after its start, or delete it, then adjudicate
+message-agreeing-several-pairs-tiers-would-go-onto = several pairs of tiers of { $recording } would go onto the tier { $tier }
+message-agreeing-name-one-pair-tiers = name one pair of tiers

@@ -1,0 +1,23 @@
+## Messages: `{ $name }` is a variable part.
+
+message-command-inventory-added = added { $value } to { $inventory }
+message-command-inventory-from-now-on-annotations-changed-lexicon = { $from } is { $to } from now on; annotations changed: { $n }, lexicon entries: { $entries }
+message-command-inventory-write-language-name-such-as-fr = write LANGUAGE=NAME, such as fr=poing
+
+## Help of commands and options.
+
+help-command-inventory-add-values-inventory-merge-two-into = Add values to an inventory, or merge two into one
+help-command-inventory-add-value = Add a value
+help-command-inventory-inventory-such-as-configurations = The inventory, such as configurations
+help-command-inventory-value-as-annotations-queries-spell = The value, as annotations and queries spell it
+help-command-inventory-another-spelling = Another spelling
+help-command-inventory-broader-value-contains-this-one-as = The broader value that contains this one, as head contains chin
+help-command-inventory-symbols-in-hamnosys-by-name = Its symbols in HamNoSys, by name
+help-command-inventory-value-removed = The value that is removed
+help-command-inventory-value-stays = The value that stays
+help-command-inventory-name-in-spoken-language-such-as = Its name in a spoken language, such as en="bent hand"
+help-command-inventory-feature-value-such-as-index-spread = A feature of the value, such as index or spread
+help-command-inventory-merge-two-values-annotations-with-first = Merge two values: annotations with the first value get the second one
+help-command-inventory-inventory = The inventory
+help-command-inventory-each-call-one-operation-chereme-undo = Each call is one operation that `chereme undo` takes back. `chereme list CORPUS inventories` names the inventories; `chereme export CORPUS inventory:NAME --to x.json` writes one, and `import` reads it again.
+help-command-inventory-spelling-first-value-becomes-another-spelling = The spelling of the first value becomes another spelling of the second, so that a table with the old spelling can be imported again.

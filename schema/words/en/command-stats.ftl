@@ -1,0 +1,58 @@
+## Messages: `{ $name }` is a variable part.
+
+message-command-stats-entries-compared-different-forms = entries: { $n }, compared: { $m }, different forms: { $k }
+message-command-stats-entropy-forms-in-bits = entropy of forms in bits: { $number }
+message-command-stats-values-in-entries-entries-without-one = { $field }: { $n } values in { $given } entries, { $empty } entries without one
+message-command-stats-entropy-in-bits-without-empty-cells = entropy in bits: { $all }; without empty cells: { $given }
+message-command-stats-functional-load = functional load: { $number }
+message-command-stats-contrasts = contrasts: - ({ $why })
+message-command-stats-contrasts-distinguish-signs-largest-load-first = contrasts that distinguish signs, the largest load first; ∅ is the empty cell
+message-command-stats-contrasts-not-shown-json-has-all = contrasts that are not shown: { $n }; --json has all
+message-command-stats-rows-not-shown-json-has-all = rows that are not shown: { $n }; --json has all
+message-command-stats-columns-not-shown-json-has-all = columns that are not shown: { $n }; --json has all
+message-command-stats-exceptions-not-shown-json-has-all = exceptions that are not shown: { $n }; --json has all
+message-command-stats-entries-with-both-left-out = { $one } × { $other }: { $n } entries with both, { $m } left out
+message-command-stats-mutual-information-in-bits-shuffled-p = mutual information in bits: { $bits } (shuffled: { $mean }), p { $p }
+message-command-stats-chi-square-shuffled-df-p = chi-square: { $value } (shuffled: { $mean }), df { $df }, p { $p }
+message-command-stats-cramer-s-v = Cramér's V: { $value }
+message-command-stats-one-handed-symmetrical-asymmetrical-no-known = one-handed: { $n }, symmetrical: { $s }, asymmetrical: { $a }, of no known type: { $o }
+message-command-stats-unmarked-handshapes = unmarked handshapes: { $list }
+message-command-stats-symmetry-both-handshapes-given-same-different = symmetry: both handshapes given { $n }, the same { $same }, different { $other }; kept by { $share }
+message-command-stats-dominance-both-handshapes-given-same-different = dominance: both handshapes given { $n }, the same { $same }, different { $other }, of these with an unmarked weak hand { $k }; kept by { $share }; weak hand unmarked in { $all }
+message-command-stats-entries-do-not-keep-symmetry = entries that do not keep symmetry: { $n }
+message-command-stats-entries-do-not-keep-dominance = entries that do not keep dominance: { $n }
+message-command-stats-without-one-handshapes = without one of the handshapes: { $list }
+message-command-stats-entries = entries: { $list }
+message-command-stats-table = table: { $path }
+
+## Help of commands and options.
+
+help-command-stats-describe-lexicon-by-numbers-entropy-functional = Describe a lexicon by numbers: entropy, functional load, association of fields, conditions on the hands
+help-command-stats-every-sign-counts-once-by-citation = Every sign counts once, by its citation form; with a query every token that it finds. Fields are columns of an imported table, whose cells are taken as written, or fields of queries such as dominant.configuration, as in `chereme pairs`.
+help-command-stats-entropy-in-bits-from-shares-as = Entropy is in bits, from the shares as they are. The functional load of a field is the share of the entropy of forms that is lost without it, (H(L) - H(L without it)) / H(L); that of a contrast is the share that is lost if its two values are one. Intervals of 95 % are the jackknife's over entries, and Wilson's for shares. Draws with replacement would take the same entry twice, as a homonym that the lexicon does not have.
+help-command-stats-association-counts-entries-have-both-fields = Association counts the entries that have both fields: mutual information, chi-square and Cramér's V. p is the share of shuffled lexica in which they go together at least as much. Fields with many rare values share information by chance alone: compare with the mean of the shuffled ones.
+help-command-stats-battison-s-conditions-symmetrical-signs-have = Battison's conditions: symmetrical signs have the same handshape on both hands; asymmetrical ones have the same one, or an unmarked one on the weak hand. They need the type of a sign (Signbank's 1, 2s, 2a, or words such as ASL-LEX's) and both handshapes.
+help-command-stats-json-gives-source-columns-citations-tokens = `--json` gives "source" (columns, citations or tokens), "entries", "compared", "forms", "entropy", "fields" (each with "field", "values", "given", "empty", "successive", "entropy", "entropy_given", "load" and "frequent") and "findings"; with --of "of" ("values", "contrasts"), with --between "between" ("n", "bits", "chi_square", "df", "cramers_v", "p", "p_bits", "chance", "rows", "columns", "cells"), with --battison "battison" ("symmetry" and "dominance", each with "exceptions"). A number is "value" or null, "why", and "interval".
+help-command-stats-tokens-instead-signs = (tokens instead of signs)
+help-command-stats-tokens-count-as-in-chereme-search = The tokens to count, as in `chereme search`
+help-command-stats-all-values-this-field-contrasts = All values of this field, and its contrasts
+help-command-stats-association-these-two-fields-their-cross = The association of these two fields, and their cross table
+help-command-stats-battison-s-conditions-on-signs-with = Battison's conditions on signs with two hands, and the signs that do not keep them
+help-command-stats-handshapes-count-as-unmarked-without-b = The handshapes that count as unmarked; without it B, A, S, C, O, 1, 5
+help-command-stats-most-values-contrasts-glosses-printed = The most values, contrasts and glosses that are printed
+help-command-stats-number-shuffles-for-p-0-computes = The number of shuffles for p; 0 computes none
+help-command-stats-write-table-csv-cross-table-values = Write a table (.csv): the cross table, the values of a field, the exceptions, or else the fields
+
+## Titles of columns.
+
+title-command-stats-field = field
+title-command-stats-values = values
+title-command-stats-empty = empty
+title-command-stats-entropy = entropy
+title-command-stats-without-empty = without empty
+title-command-stats-load = load
+title-command-stats-load-2 = ± load
+title-command-stats-most-frequent = most frequent
+title-command-stats-minimal-pairs = minimal pairs
+title-command-stats-strong-hand = strong hand
+title-command-stats-weak-hand = weak hand

@@ -1,0 +1,32 @@
+## Messages: `{ $name }` is a variable part.
+
+message-counting-no-entry-has-value-in-all = no entry has a value in all of the fields
+message-counting-no-entry-has-value = no entry has a value
+message-counting-all-entries-have-same-form = all entries have the same form
+message-counting-all-entries-have-same-value = all entries have the same value
+message-counting-nothing-drawn = nothing was drawn
+message-counting-there-too-many-pairs-values = there are too many pairs of values
+message-counting-numbers-do-not-allow = the numbers do not allow it
+message-counting-1000-usual = 1000 are usual
+message-counting-field-not-among-fields = the field { $name } is not among the fields
+message-counting-fields = the fields are: { $names }
+message-counting-name-in-fields-too = name it in --fields, too
+message-counting-no-token-found-coded-for = no token found is coded for { $field }
+message-counting-fields-do-not-say-type-sign = the fields do not say the type of a sign and the handshapes of both hands
+message-counting-name-them-in-fields-columns-such = name them in --fields: columns such as Handedness, Handshape strong and Handshape weak, or configuration.handedness, configuration and weak.configuration
+message-counting-differ-only-in-case-accents-count = { $field }: { $value } ({ $n }) and { $common } ({ $m }) differ only in case or accents, and count as two values
+message-counting-if-they-one-value-correct-table = if they are one value, correct the table and import it again
+message-counting-if-they-one-value = if they are one value: { $command }
+message-counting-most-entries-have-no-value-in = most entries have no value in some fields ({ $list }, of { $n } entries): entropy, load and dense places of the lexicon there mirror how completely entries are coded
+message-counting-compare-with-empty-unknown-leave-these = compare with --empty unknown, or leave these fields out with --fields
+message-counting-cells-with-successive-values-such-as = cells with successive values, such as a > b, count as one value each: { $list }
+message-counting-no-known-type-sign = { $field }: { $value } ({ $n }) is no known type of sign
+message-counting-types-1-2s-2a-words-such = the types are 1, 2s and 2a, or words such as one-handed, symmetrical, asymmetrical
+message-counting-one-handed-entries-with-handshape-weak = one-handed entries with a handshape of the weak hand: { $n }
+message-counting-look-at-them-either-type-handshape = look at them: either the type or the handshape of the weak hand is wrong
+message-counting-one-handed-entries-whose-place-weak = one-handed entries whose place is the weak hand: { $n }
+message-counting-look-at-them-weak-hand-touched = look at them: a weak hand that is touched is part of the sign
+message-counting-alternating-entries-not-symmetrical = alternating entries that are not symmetrical: { $n }
+message-counting-look-at-them-hands-alternate-both = look at them: hands that alternate both move
+message-counting-cross-table-would-have-cells-at = the cross table would have { $n } cells, and at most { $most } are written
+message-counting-json-has-cells-not-0 = `--json` has the cells that are not 0

@@ -1,0 +1,34 @@
+## Messages: `{ $name }` is a variable part.
+
+message-publishing-no-audience = { $name } is no audience
+message-publishing-write-public-research-nobody = write public, research or nobody
+message-publishing-text-consent-has-at-most-bytes = a text of a consent has at most { $n } bytes
+message-publishing-no-day = { $day } is no day
+message-publishing-write-as-2026-11-27 = write it as 2026-11-27
+message-publishing-neither-signer-nor-recording = { $address } is neither a signer nor a recording
+message-publishing-write-signer-name-recording-name = write signer:NAME or recording:NAME
+message-publishing-terms-use-text-at-most-bytes = terms of use are a text of at most { $n } bytes
+message-publishing-nobody-named = nobody is named
+message-publishing-name-signers-recordings-such-as-signer = name signers or recordings, such as signer:Ada or recording:3
+message-publishing-state-what-signers-agreed-chereme-consent = state what the signers agreed to: `chereme consent CORPUS signer:NAME --all public`
+message-publishing-signers-did-not-agree-everybody-sees = the signers did not agree that everybody sees it
+message-publishing-state-terms-recordings-with-chereme-consent = state the terms of recordings with `chereme consent CORPUS signer:NAME --licence TERMS`, those of entries that show nobody with --terms TERMS
+message-publishing-recording-they-made-from-may-not = a recording that they were made from may not be changed
+message-publishing-two-copies-corpus-disagree-about-chereme = two copies of the corpus disagree about it: `chereme conflicts CORPUS` lists what is to be decided
+message-publishing-recording-they-made-from-not-known = a recording that they were made from is not known, or was deleted
+message-publishing-none-signs-may-published = none of { $n } signs may be published
+message-publishing-no-sign-published = no sign is to be published
+message-publishing-import-recordings-lexicon-choose-other-signs = import recordings or a lexicon, or choose other signs
+message-publishing-dictionary-has-at-most-signs = a dictionary has at most { $n } signs
+message-publishing-choose-fewer-with-query = choose fewer with a query
+message-publishing-not-written-by-publication = { $name } was not written by a publication
+message-publishing-name-empty-folder-move-file-away = name an empty folder, or move the file away
+message-publishing-this-folder-has-no-name-own = this folder has no name of its own
+message-publishing-name-folder-can-replaced-such-as = name a folder that can be replaced, such as dictionary/
+message-publishing-folders-lie-too-deep-inside-each = folders lie too deep inside each other
+message-publishing-file-s-name-no-text = a file's name is no text
+message-publishing-move-out-folder = move it out of the folder
+message-publishing-corpus-itself-lies-in-this-folder = the corpus itself lies in this folder
+message-publishing-name-folder-holds-only-what-everybody = name a folder that holds only what everybody may see
+message-publishing-new-pages-in-place-but-old = the new pages are in place, but the old ones could not be removed
+message-publishing-remove-this-folder-signs-withdrawn-may = remove this folder: signs that were withdrawn may be in it

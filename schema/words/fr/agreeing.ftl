@@ -1,0 +1,34 @@
+## Messages: `{ $name }` is a variable part.
+
+message-agreeing-both-tiers-empty = les deux acteurs sont vides
+message-agreeing-one-value-only = une seule valeur
+message-agreeing-no-item-has-two-values = aucune unité n’a deux valeurs
+message-agreeing-values-missing = il manque des valeurs
+message-agreeing-no-disagreement-expected-by-chance = le hasard ne fait attendre aucun désaccord
+message-agreeing-no-boundary = aucune frontière
+message-agreeing-units-with-gaps-between-them = unités séparées par des vides
+message-agreeing-too-many-units-overlap = trop d’unités se chevauchent
+message-agreeing-too-many-units-overlap-aligned-disagreements = trop d’unités de { $recording } se chevauchent pour être alignées : ses désaccords sont ceux des unités appariées par recouvrement
+message-agreeing-no-annotation-has-value-so-only = aucune annotation n’a de valeur : seules les durées sont comparées
+message-agreeing-annotations-without-value-left-out = annotations sans valeur, laissées de côté : { $n } de { $a }, { $m } de { $b }
+message-agreeing-several-tiers-could-belong-name-both = plusieurs acteurs de { $recording } pourraient aller avec { $tier } : nommez les deux par nom ou numéro
+message-agreeing-no-measure-called = aucune mesure ne s’appelle { $name }
+message-agreeing-measures = les mesures sont : { $names }
+message-agreeing-units-match-if-51-100-longer = deux unités se correspondent si 51 à 100 % de la plus longue sont communs
+message-agreeing-elan-s-60-usual = les 60 % d’ELAN sont l’usage
+message-agreeing-draws-more-than-made-at-most = { $n } tirages, c’est plus que le maximum de { $most }
+message-agreeing-1000-draws-30-samples-usual = 1000 tirages et 30 échantillons sont l’usage
+message-agreeing-tier-would-compared-with-itself = l’acteur { $tier } de { $recording } serait comparé à lui-même
+message-agreeing-name-tier-other-annotator = nommez l’acteur de l’autre annotateur
+message-agreeing-no-tier-has-annotator-did-you = aucun acteur n’a l’annotateur { $name } ; vouliez-vous dire { $other } ?
+message-agreeing-no-tier-has-annotator = aucun acteur n’a l’annotateur { $name }
+message-agreeing-chereme-list-corpus-tiers-shows-annotator = `chereme list CORPUS tiers` montre l’annotateur de chaque acteur
+message-agreeing-no-recording-has-both-did-you = aucun enregistrement n’a { $a } et { $b } à la fois ; vouliez-vous dire { $name } ?
+message-agreeing-no-recording-has-both = aucun enregistrement n’a { $a } et { $b } à la fois
+message-agreeing-chereme-list-corpus-tiers-lists-all = `chereme list CORPUS tiers` énumère tous les acteurs ; écrivez leurs noms, « *-A » et « *-B », annotator:NOM, ou tier:12
+message-agreeing-two-tiers-belong-different-recordings = les deux acteurs sont de deux enregistrements différents
+message-agreeing-copy-one-them-recording-other-then = copiez l’un dans l’enregistrement de l’autre, puis tranchez
+message-agreeing-annotation-at-s-has-no-length = l’annotation { $value } à { $s } s n’a pas de durée et ne peut donc pas aller sur un troisième acteur
+message-agreeing-give-end-after-start-delete-then = donnez-lui une fin après son début, ou supprimez-la, puis tranchez
+message-agreeing-several-pairs-tiers-would-go-onto = plusieurs paires d’acteurs de { $recording } iraient sur l’acteur { $tier }
+message-agreeing-name-one-pair-tiers = nommez une seule paire d’acteurs

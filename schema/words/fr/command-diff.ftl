@@ -1,0 +1,6 @@
+## Help of commands and options.
+
+help-command-diff-compare-two-annotation-files-two-recordings = Comparer deux fichiers d’annotation, ou deux enregistrements, selon leur sens
+help-command-diff-two-files-corpus-then-two-recordings = Deux fichiers, ou un corpus puis deux enregistrements ou fichiers
+help-command-diff-exit-with-1-if-there-differences = Finir avec le code 1 s’il y a des différences
+help-command-diff-lists-annotations-added-removed-moved-given = Énumère les annotations ajoutées, supprimées, déplacées ou de valeur changée, et les modifications d’acteurs. Les repères de temps, l’ordre des éléments et la graphie d’un fichier ne comptent pas ; des temps à moins d’une milliseconde sont égaux. Les annotations se correspondent par leurs ids si les deux fichiers descendent du même, sinon par acteur et temps. Les deux côtés sont des fichiers d’annotations ou des modèles que `import` lit (- est l’entrée standard), ou le premier argument est un corpus, et les côtés sont des fichiers ou des adresses comme recording:3. Avec --json, écrit { "{" }"added", "removed", "moved", "revalued", "tiers", "document"{ "}" }. Le code de sortie est 0 après une comparaison, 1 si elle a échoué ou, avec --exit-code, s’il y a des différences, et 2 si l’utilisation est incorrecte.

@@ -1,0 +1,19 @@
+## Messages: `{ $name }` is a variable part.
+
+message-command-propose-accepted = accepté : { $n }
+message-command-propose-proposed-in = proposé : { $annotations } dans { $recordings }
+message-command-propose-nothing-examine-in = rien à examiner dans { $recordings }
+message-command-propose-in-for-could-not-read-from = { $annotations } dans { $recordings }, pour { $tokens } ; illisible dans le mouvement : { $unread }
+
+## Help of commands and options.
+
+help-command-propose-propose-values-component-from-movement-for = Proposer d’après le mouvement des valeurs d’un composant, pour les occurrences qui n’en ont pas ; ou lancer un détecteur sur des enregistrements
+help-command-propose-run-this-detector-on-every-recording = Lancer ce détecteur sur tous les enregistrements, ou sur celui de --for
+help-command-propose-component-configuration-handshape-placement-movement-orientation = Le composant : configuration (ou handshape), placement, movement ou orientation ; sinon les quatre
+help-command-propose-only-for-tokens-this-recording-for = Seulement pour les occurrences de cet enregistrement, ou pour cette occurrence
+help-command-propose-accept-these-proposals-by-numbers-their = Accepter ces propositions, par les numéros de leurs annotations, comme vos propres codages
+help-command-propose-movement-each-token-transcribed-values-written = Le mouvement de chaque occurrence est transcrit, et les valeurs sont écrites sur des acteurs à part, comme « configuration dominant (proposed) », en annotations d’un détecteur. Elles ne se mêlent jamais aux codages d’une personne. Un appel est une opération, que `undo` annule. Ctrl-C l’arrête et laisse le corpus tel qu’il était.
+help-command-propose-with-detector-no-transcription-runs-detector = Avec --detector rien n’est transcrit : le détecteur examine des enregistrements entiers, et ce qu’il trouve est écrit sur des acteurs comme « movement.phase right (proposed) », à la place de ses propositions d’avant que personne n’a modifiées.
+help-command-propose-json-gives-tokens-annotations-numbers-those = `--json` donne "tokens" et "annotations", les nombres de celles qui ont été écrites, "unread", le nombre d’occurrences dont le mouvement n’a pas pu être transcrit, et "recordings", les noms de ceux qui ont de nouvelles annotations. Avec --detector il donne "detector", "annotations", "recordings", "unobserved", le nombre d’enregistrements sans la partie que le détecteur examine, et "found", les propositions de chaque enregistrement avec acteur, temps, valeur, confiance et indices.
+help-command-propose-finds-proposed-codings-too = (trouve aussi les codages proposés)
+help-command-propose-takes-all-them-back = (les retire tous)

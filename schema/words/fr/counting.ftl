@@ -1,0 +1,32 @@
+## Messages: `{ $name }` is a variable part.
+
+message-counting-no-entry-has-value-in-all = aucune entrée n’a de valeur dans tous les champs
+message-counting-no-entry-has-value = aucune entrée n’a de valeur
+message-counting-all-entries-have-same-form = toutes les entrées ont la même forme
+message-counting-all-entries-have-same-value = toutes les entrées ont la même valeur
+message-counting-nothing-drawn = rien n’a été tiré
+message-counting-there-too-many-pairs-values = il y a trop de paires de valeurs
+message-counting-numbers-do-not-allow = les nombres ne le permettent pas
+message-counting-1000-usual = 1000 sont l’usage
+message-counting-field-not-among-fields = le champ { $name } n’est pas parmi les champs
+message-counting-fields = les champs sont : { $names }
+message-counting-name-in-fields-too = nommez-le aussi dans --fields
+message-counting-no-token-found-coded-for = aucune occurrence trouvée n’est codée pour { $field }
+message-counting-fields-do-not-say-type-sign = les champs ne disent pas le type du signe et les configurations des deux mains
+message-counting-name-them-in-fields-columns-such = nommez-les dans --fields : des colonnes comme Handedness, Handshape strong et Handshape weak, ou configuration.handedness, configuration et weak.configuration
+message-counting-differ-only-in-case-accents-count = { $field } : { $value } ({ $n }) et { $common } ({ $m }) ne diffèrent que par la casse ou les accents, et comptent pour deux valeurs
+message-counting-if-they-one-value-correct-table = si c’est une seule valeur, corrigez la table et importez-la de nouveau
+message-counting-if-they-one-value = si c’est une seule valeur : { $command }
+message-counting-most-entries-have-no-value-in = la plupart des entrées n’ont pas de valeur dans certains champs ({ $list }, sur { $n } entrées) : l’entropie, la charge et les endroits denses du lexique y reflètent le degré de codage des entrées
+message-counting-compare-with-empty-unknown-leave-these = comparez avec --empty unknown, ou laissez ces champs de côté avec --fields
+message-counting-cells-with-successive-values-such-as = les cellules à valeurs successives, comme a > b, comptent chacune pour une valeur : { $list }
+message-counting-no-known-type-sign = { $field } : { $value } ({ $n }) n’est pas un type de signe connu
+message-counting-types-1-2s-2a-words-such = les types sont 1, 2s et 2a, ou des mots comme one-handed, symmetrical, asymmetrical
+message-counting-one-handed-entries-with-handshape-weak = entrées à une main avec une configuration de la main dominée : { $n }
+message-counting-look-at-them-either-type-handshape = regardez-les : soit le type, soit la configuration de la main dominée est faux
+message-counting-one-handed-entries-whose-place-weak = entrées à une main dont l’emplacement est la main dominée : { $n }
+message-counting-look-at-them-weak-hand-touched = regardez-les : une main dominée que l’autre touche fait partie du signe
+message-counting-alternating-entries-not-symmetrical = entrées alternées qui ne sont pas symétriques : { $n }
+message-counting-look-at-them-hands-alternate-both = regardez-les : des mains qui alternent bougent toutes deux
+message-counting-cross-table-would-have-cells-at = le tableau croisé aurait { $n } cellules, et on en écrit au plus { $most }
+message-counting-json-has-cells-not-0 = `--json` contient les cellules qui ne sont pas 0

@@ -1,0 +1,34 @@
+## Messages: `{ $name }` is a variable part.
+
+message-publishing-no-audience = { $name } n’est pas un public
+message-publishing-write-public-research-nobody = écrivez public, research ou nobody
+message-publishing-text-consent-has-at-most-bytes = un texte d’un consentement a au plus { $n } octets
+message-publishing-no-day = { $day } n’est pas un jour
+message-publishing-write-as-2026-11-27 = écrivez-le comme 2026-11-27
+message-publishing-neither-signer-nor-recording = { $address } n’est ni un signeur ni un enregistrement
+message-publishing-write-signer-name-recording-name = écrivez signer:NOM ou recording:NOM
+message-publishing-terms-use-text-at-most-bytes = des conditions d’utilisation sont un texte d’au plus { $n } octets
+message-publishing-nobody-named = personne n’est nommé
+message-publishing-name-signers-recordings-such-as-signer = nommez des signeurs ou des enregistrements, comme signer:Ada ou recording:3
+message-publishing-state-what-signers-agreed-chereme-consent = indiquez ce que les signeurs ont accepté : `chereme consent CORPUS signer:NOM --all public`
+message-publishing-signers-did-not-agree-everybody-sees = les signeurs n’ont pas accepté que tout le monde le voie
+message-publishing-state-terms-recordings-with-chereme-consent = indiquez les conditions des enregistrements avec `chereme consent CORPUS signer:NOM --licence CONDITIONS`, celles des entrées qui ne montrent personne avec --terms CONDITIONS
+message-publishing-recording-they-made-from-may-not = un enregistrement dont ils sont faits ne peut pas être modifié
+message-publishing-two-copies-corpus-disagree-about-chereme = deux copies du corpus ne sont pas d’accord : `chereme conflicts CORPUS` donne la liste de ce qui est à décider
+message-publishing-recording-they-made-from-not-known = un enregistrement dont ils sont faits n’est pas connu, ou a été supprimé
+message-publishing-none-signs-may-published = aucun des { $n } signes ne peut être publié
+message-publishing-no-sign-published = aucun signe n’est à publier
+message-publishing-import-recordings-lexicon-choose-other-signs = importez des enregistrements ou un lexique, ou choisissez d’autres signes
+message-publishing-dictionary-has-at-most-signs = un dictionnaire a au plus { $n } signes
+message-publishing-choose-fewer-with-query = choisissez-en moins avec une requête
+message-publishing-not-written-by-publication = { $name } n’a pas été écrit par une publication
+message-publishing-name-empty-folder-move-file-away = nommez un dossier vide, ou déplacez le fichier
+message-publishing-this-folder-has-no-name-own = ce dossier n’a pas de nom à lui
+message-publishing-name-folder-can-replaced-such-as = nommez un dossier qui peut être remplacé, comme dictionnaire/
+message-publishing-folders-lie-too-deep-inside-each = des dossiers sont imbriqués trop profondément
+message-publishing-file-s-name-no-text = le nom d’un fichier n’est pas un texte
+message-publishing-move-out-folder = déplacez-le hors du dossier
+message-publishing-corpus-itself-lies-in-this-folder = le corpus lui-même est dans ce dossier
+message-publishing-name-folder-holds-only-what-everybody = nommez un dossier qui ne contient que ce que tout le monde peut voir
+message-publishing-new-pages-in-place-but-old = les nouvelles pages sont en place, mais les anciennes n’ont pas pu être supprimées
+message-publishing-remove-this-folder-signs-withdrawn-may = supprimez ce dossier : des signes retirés peuvent s’y trouver
