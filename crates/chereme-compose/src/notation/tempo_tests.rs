@@ -151,7 +151,9 @@ fn acts_that_the_animator_does_not_know_are_reported() {
     }
     let made = animate(&[&sign], &stage(Axes::Plain), &Settings::default()).expect("animated");
     let reported = made.report.warnings.iter();
-    let reported: Vec<_> = reported.filter(|warning| warning.contains("non-manuals")).collect();
+    let reported: Vec<_> = reported
+        .filter(|warning| warning.contains("non-manuals"))
+        .collect();
     assert_eq!(reported.len(), 1);
     assert!(
         reported[0].ends_with(": extra.X01, head.QQ"),

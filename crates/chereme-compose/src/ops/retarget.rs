@@ -219,7 +219,7 @@ impl Body<'_> {
     fn posture(&self, part: Part) -> &ModelPose {
         match part {
             Part::Thigh(_) | Part::Shin(_) | Part::Foot(_) | Part::Toes(_) => {
-                self.anatomy.reference_pose()
+                self.anatomy.measured_pose()
             }
             _ => &self.rest,
         }

@@ -118,7 +118,8 @@ pub struct Anatomy {
     measures: Option<Measures>,
     head: Option<landmarks::HeadFrame>,
     elbows: [Option<DVec3>; 2],
-    reference: ModelPose,
+    /// The posture in which the body was measured.
+    measured_pose: ModelPose,
     posed: bool,
     /// The local rotations of the reference posture, if it is not the rest pose.
     reference: Option<Vec<DQuat>>,
@@ -166,7 +167,7 @@ impl Anatomy {
             measures: None,
             head: None,
             elbows: [None, None],
-            reference: skeleton.rest_model_pose(),
+            measured_pose: skeleton.rest_model_pose(),
             posed: false,
             reference: None,
             far_ends: Vec::new(),
@@ -183,7 +184,7 @@ impl Anatomy {
                 .and_then(|hand| skeleton.joint(hand).tip)
                 .filter(|tip| tip.try_normalize().is_some());
         }
-        let rest = anatomy.reference.clone();
+        let rest = anatomy.measured_pose.clone();
         anatomy.with_reference(skeleton, &rest)
     }
 
@@ -208,7 +209,7 @@ impl Anatomy {
             .zip(self.measures)
             .and_then(|(axes, measures)| landmarks::HeadFrame::of(&self, model, axes, &measures));
         self.elbows = Side::BOTH.map(|side| self.elbow_at(side, model, axes?[2]));
-        self.reference.clone_from(model);
+        self.measured_pose.clone_from(model);
         self
     }
 
@@ -286,8 +287,8 @@ impl Anatomy {
 
     /// Returns the posture in which the body was measured.
     #[must_use]
-    pub fn reference_pose(&self) -> &ModelPose {
-        &self.reference
+    pub fn measured_pose(&self) -> &ModelPose {
+        &self.measured_pose
     }
 
     /// Returns the size of the body; `None` if the skeleton has no arm, leg or hand.
