@@ -149,8 +149,9 @@ fn without_rest(first: &mut Work, second: &mut Work) -> Result<Ends, Cause> {
 
 /// The greatest difference in length between the bones of one signer in two recordings, as a share of the bone.
 const SAME_LENGTH: f64 = 0.1;
-/// The greatest angle between these bones, or between the rest poses of a joint, in radians.
-const SAME_ANGLE: f64 = 0.035;
+/// The greatest angle between these bones, or between the rest poses of a joint, in radians: of digits, which are solved
+/// from few markers, and of all else, so that a foot is less than 2 cm beside its place.
+const SAME_ANGLE: [f64; 2] = [0.1, 0.02];
 
 /// Returns the second movement on the first one's skeleton, with the same local rotations, if both skeletons are the
 /// same body: joints of equal names, parents and offsets, except for offsets of joints whose positions both movements
@@ -203,12 +204,16 @@ fn on_same_body(first: &Work, second: &Work) -> Option<Work> {
         let given = first.channels[n].translations.is_some() && channel.translations.is_some();
         if joint.rest != other.rest || !(given || joint.offset == other.offset) {
             let bone = second.translation(m, 0);
+            let digit = matches!(
+                first.anatomy.part_of(n),
+                Some(Part::Thumb(..) | Part::Finger(..))
+            );
+            let most = SAME_ANGLE[usize::from(!digit)];
             let [one, two] = [place, bone].map(DVec3::normalize_or_zero);
             let longer = (place.length() - bone.length()).abs();
-            let alike_bones =
-                longer <= SAME_LENGTH * place.length() && one.distance(two) < SAME_ANGLE;
+            let alike_bones = longer <= SAME_LENGTH * place.length() && one.distance(two) < most;
             let leads = a.ancestors(hips).any(|above| above == n);
-            let alike = joint.rest.angle_between(other.rest) < SAME_ANGLE && (leads || alike_bones);
+            let alike = joint.rest.angle_between(other.rest) < most && (leads || alike_bones);
             if !same_signer || !alike {
                 return None;
             }
