@@ -6,16 +6,20 @@
 )]
 
 use std::error::Error;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use chereme_corpus::{Corpus, ImportOptions, Progress, unheard, unpack_starter};
 
 #[path = "../examples/dialects/dialect.rs"]
 mod dialect;
+#[path = "../examples/dialects/joins.rs"]
+mod joins;
 #[path = "../examples/dialects/read.rs"]
 mod read;
 #[path = "../examples/dialects/rig.rs"]
 mod rig;
+
+use joins::JoinMeasure;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
@@ -28,6 +32,56 @@ fn corpus_of(folder: &Path, name: &str, file: &Path) -> Result<Corpus> {
         return Err(format!("{name} is refused: {:?}", report.files).into());
     }
     Ok(corpus)
+}
+
+/// Returns recordings of the starter corpus, unpacked.
+fn starters(folder: &Path, names: &[&str]) -> Result<Vec<PathBuf>> {
+    let mut files = unpack_starter(&folder.join("starter"))?;
+    files.retain(|path| {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        path.extension().is_some_and(|ending| ending == "bvh") && names.contains(&stem.as_ref())
+    });
+    Ok(files)
+}
+
+#[test]
+fn joined_pieces_stand_still_whatever_the_dialect_of_either() -> Result<()> {
+    let own = tempfile::tempdir()?;
+    // The example program joins every recording in every dialect.
+    let captures = starters(own.path(), &["chat", "escargot"])?;
+    let mut dialects = dialect::all();
+    dialects.retain(|dialect| ["armature", "shogun-markers", "unreal-a"].contains(&dialect.name));
+    for (dialect, worst) in joins::joined(&captures, &dialects, own.path())? {
+        let JoinMeasure {
+            hips,
+            floor,
+            refused,
+        } = worst;
+        assert_eq!(refused, 0, "{dialect}");
+        assert!(
+            hips < joins::HIPS,
+            "{dialect}: hips {hips} m off their line"
+        );
+        assert!(
+            floor < joins::FLOOR,
+            "{dialect}: feet {floor} m off the floor"
+        );
+    }
+    Ok(())
+}
+
+#[test]
+fn feet_and_thumbs_point_alike_on_the_bodies_of_all_dialects() -> Result<()> {
+    let own = tempfile::tempdir()?;
+    let capture = &starters(own.path(), &["escargot"])?[0];
+    for (from, onto, angle, part) in joins::turned(capture, own.path())? {
+        let angle = angle.to_degrees();
+        assert!(
+            angle < joins::BONE,
+            "{part} of {from} on {onto} is turned by {angle}°"
+        );
+    }
+    Ok(())
 }
 
 #[test]

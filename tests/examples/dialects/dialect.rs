@@ -1,5 +1,7 @@
 //! Descriptions of skeleton dialects: the names, units, rest poses, joints and faults in files of common programs.
 
+use std::f64::consts::FRAC_PI_2;
+
 use chereme_motion::{Finger, Part, Side};
 
 /// The form in which one program writes a body.
@@ -21,8 +23,8 @@ pub(crate) struct Dialect {
     pub(crate) metacarpals: bool,
     /// Whether fingers end in a fourth joint instead of an End Site.
     pub(crate) ends: bool,
-    /// Whether a node with its own offset and rotation is above the hips.
-    pub(crate) wrapped: bool,
+    /// The turn about X and Y, in radians, of a node with its own offset above the hips, which make up for it.
+    pub(crate) wrapped: Option<[f64; 2]>,
     pub(crate) markers: bool,
     /// Whether fingertips and some finger joints have wrong offsets, and every joint has position channels.
     pub(crate) broken: bool,
@@ -51,7 +53,7 @@ const PLAIN: Dialect = Dialect {
     bent: 0.0,
     metacarpals: false,
     ends: false,
-    wrapped: false,
+    wrapped: None,
     markers: false,
     broken: false,
     odd: false,
@@ -122,13 +124,19 @@ pub(crate) fn all() -> Vec<Dialect> {
         },
         Dialect {
             name: "wrapped",
-            wrapped: true,
+            wrapped: Some([0.0, 0.6]),
+            ..PLAIN
+        },
+        Dialect {
+            name: "armature",
+            wrapped: Some([-FRAC_PI_2, 0.0]),
+            ends: true,
             ..PLAIN
         },
         Dialect {
             name: "shogun-markers",
             space: "Anna:",
-            wrapped: true,
+            wrapped: Some([0.0, 0.6]),
             markers: true,
             broken: true,
             ..PLAIN
@@ -188,7 +196,7 @@ pub(crate) fn all() -> Vec<Dialect> {
             bent: 0.5,
             metacarpals: true,
             ends: true,
-            wrapped: true,
+            wrapped: Some([0.0, 0.6]),
             markers: true,
             broken: true,
             odd: true,

@@ -11,6 +11,7 @@
 #![allow(clippy::print_stdout, reason = "a program prints its table")]
 
 mod dialect;
+mod joins;
 mod others;
 mod read;
 mod rig;
@@ -31,6 +32,7 @@ fn main() -> Result<()> {
             for capture in captures(own.path())? {
                 text += &table(&capture, own.path())?;
             }
+            text += &joins_table(own.path())?;
             if let Some(data) = std::env::var_os("CHEREME_SHARED_DATA") {
                 text += others::HEAD;
                 text += &others::rows(Path::new(&data))?;
@@ -91,6 +93,39 @@ fn table(capture: &Path, folder: &Path) -> Result<String> {
     Ok(text)
 }
 
+/// The head of the table of joins.
+const JOINS: &str = "
+## Joined pieces, and movement on another body
+
+Every recording of the starter corpus is joined to every other one, within a dialect and between the dialect and the file as
+it is. *Refused* counts the joins that would add too much speed. *Hips* is the largest distance from the straight line between the two pieces, *floor* that of the lower foot from its
+height in the first piece. Then movement of each dialect is put on the bodies of all: *turned* is the largest angle between a
+bone of foot or thumb and its counterpart.
+
+| dialect | refused | hips | floor | turned | bone |
+|---|--:|--:|--:|--:|---|
+";
+
+/// Returns the table of joins for the starter corpus.
+fn joins_table(folder: &Path) -> Result<String> {
+    let joined = joins::joined(&starters(folder, &[])?, &dialect::all(), folder)?;
+    let turned = joins::turned(&starter(folder)?, folder)?;
+    let mut text = JOINS.to_owned();
+    for (name, worst) in joined {
+        let own = turned.iter().filter(|row| row.0 == name);
+        let most = own.max_by(|a, b| a.2.total_cmp(&b.2));
+        let (angle, bone) = most.map_or((0.0, ""), |row| (row.2, row.3.as_str()));
+        text += &format!(
+            "| {name} | {} | {:.1} mm | {:.1} mm | {:.1}° | {bone} |\n",
+            worst.refused,
+            worst.hips * 1000.0,
+            worst.floor * 1000.0,
+            angle.to_degrees()
+        );
+    }
+    Ok(text)
+}
+
 /// Returns the capture of the starter corpus, and those of other people if the shared data are there.
 fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
     let mut all = vec![starter(folder)?];
@@ -106,13 +141,21 @@ fn captures(folder: &Path) -> Result<Vec<PathBuf>> {
 
 /// Returns the capture of the starter corpus, unpacked.
 fn starter(folder: &Path) -> Result<PathBuf> {
-    let files = unpack_starter(&folder.join("starter"))?;
-    let is = |path: &&PathBuf| path.file_name().is_some_and(|name| name == "escargot.bvh");
-    Ok(files
-        .iter()
-        .find(is)
-        .ok_or("the starter corpus has no capture")?
-        .clone())
+    let mut found = starters(folder, &["escargot"])?;
+    found
+        .pop()
+        .ok_or_else(|| "the starter corpus has no capture".into())
+}
+
+/// Returns recordings of the starter corpus, unpacked; all of them if no names are given.
+fn starters(folder: &Path, names: &[&str]) -> Result<Vec<PathBuf>> {
+    let mut files = unpack_starter(&folder.join("starter"))?;
+    files.retain(|path| {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        let is_capture = path.extension().is_some_and(|ending| ending == "bvh");
+        is_capture && (names.is_empty() || names.contains(&stem.as_ref()))
+    });
+    Ok(files)
 }
 
 /// Imports a file into a new corpus, without progress.

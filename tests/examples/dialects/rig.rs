@@ -111,13 +111,13 @@ pub(crate) fn write(
     let unit = |v: DVec3| turn * v * dialect.unit;
     let place = |model: &ModelPose, bone: &Bone| unit(model.point(bone.of, bone.at));
     // The wrapper is somewhere else and turned; the hips below it make up for that.
-    let more = usize::from(dialect.wrapped);
+    let more = usize::from(dialect.wrapped.is_some());
     let (wrap, wrapped_turn) = match dialect.wrapped {
-        true => (
+        Some([x, y]) => (
             unit(DVec3::new(0.4, 0.1, -1.3)),
-            DQuat::from_rotation_y(0.6),
+            DQuat::from_rotation_x(x) * DQuat::from_rotation_y(y),
         ),
-        false => (DVec3::ZERO, DQuat::IDENTITY),
+        None => (DVec3::ZERO, DQuat::IDENTITY),
     };
     let own = match dialect.pole {
         true => own_axes(source, &bones, |bone| place(&rest, bone)),
@@ -125,7 +125,7 @@ pub(crate) fn write(
     };
     let axes_above = |bone: &Bone| bone.parent.map_or(DQuat::IDENTITY, |parent| own[parent]);
     let mut joints: Vec<Joint> = Vec::new();
-    if dialect.wrapped {
+    if dialect.wrapped.is_some() {
         joints.push(Joint::new("RootNode", None, DVec3::ZERO));
     }
     for (bone, own) in bones.iter().zip(&own) {
@@ -141,7 +141,7 @@ pub(crate) fn write(
             }),
             ..Joint::new(
                 format!("{}{}", dialect.space, bone.name),
-                parent.or(dialect.wrapped.then_some(0)),
+                parent.or(dialect.wrapped.map(|_| 0)),
                 axes_above(bone).inverse() * (at - from),
             )
         });
@@ -174,7 +174,7 @@ pub(crate) fn write(
                 .get_or_insert_default()
                 .push(at);
         };
-        if dialect.wrapped {
+        if dialect.wrapped.is_some() {
             push(0, wrapped_turn, wrap);
         }
         for (n, bone) in bones.iter().enumerate() {

@@ -1,0 +1,238 @@
+//! Movement of one dialect on the body of another: the paths of hips and feet where two captures are joined, and the
+//! directions of feet and thumbs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use chereme_compose::on_body;
+use chereme_corpus::{Corpus, ImportOptions, Moving, Progress, Recombination, unheard};
+use chereme_motion::glam::DVec3;
+use chereme_motion::{Anatomy, Clip, ModelPose, Part, Side, Skeleton};
+use chereme_sign::Handedness;
+
+use crate::Result;
+use crate::dialect::{self, Dialect};
+use crate::read;
+use crate::rig::{self, Staged};
+
+/// The largest distance of the hips from the straight line between two pieces, in metres.
+pub(crate) const HIPS: f64 = 0.02;
+/// The largest distance of a standing foot from the floor of the first piece, in metres.
+pub(crate) const FLOOR: f64 = 0.01;
+/// The largest angle between a bone and its counterpart on another body, in degrees.
+pub(crate) const BONE: f64 = 5.0;
+
+/// The largest distances at a join, in metres.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct JoinMeasure {
+    /// From the straight line between the last place of the hips in the first piece and the first one in the second.
+    pub(crate) hips: f64,
+    /// Of the lower foot from its usual height in the first piece.
+    pub(crate) floor: f64,
+    /// The number of joins that are refused.
+    pub(crate) refused: usize,
+}
+
+impl JoinMeasure {
+    fn of(made: &Recombination) -> Result<Self> {
+        let clip = &made.clip;
+        let transition = made.notes.iter().find(|note| note.about == "transition");
+        let transition = transition.ok_or("the recipe has no transition")?;
+        let frame = |us: i64| (us as f64 / 1e6 * clip.rate().per_second()).round() as usize;
+        let (leave, enter) = (frame(transition.start_us) - 1, frame(transition.end_us));
+        let joint = |part| made.anatomy.joint(part).ok_or("a part is not found");
+        let hips = joint(Part::Hips)?;
+        let feet = [Part::Foot(Side::Right), Part::Foot(Side::Left)].map(joint);
+        let feet = [feet[0]?, feet[1]?];
+        let models: Vec<ModelPose> = (0..clip.frames()).map(|n| clip.model_pose(n)).collect();
+        let (start, end) = (models[leave].position(hips), models[enter].position(hips));
+        let off = |model: &ModelPose| {
+            let own = model.position(hips) - start;
+            let line = end - start;
+            let share = own.dot(line) / line.length_squared().max(1e-12);
+            (own - line * share.clamp(0.0, 1.0)).length()
+        };
+        let height = |model: &ModelPose| {
+            let [right, left] = feet.map(|foot| model.position(foot).y);
+            right.min(left)
+        };
+        let mut first: Vec<f64> = models[..=leave].iter().map(height).collect();
+        first.sort_by(f64::total_cmp);
+        let usual = first[first.len() / 2];
+        let most = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0, f64::max);
+        Ok(Self {
+            hips: most(&mut models[leave..=enter].iter().map(off)),
+            floor: most(&mut models.iter().map(|model| (height(model) - usual).abs())),
+            refused: 0,
+        })
+    }
+
+    fn larger(self, other: Self) -> Self {
+        Self {
+            hips: self.hips.max(other.hips),
+            floor: self.floor.max(other.floor),
+            refused: self.refused + other.refused,
+        }
+    }
+}
+
+/// Joins every capture to every other one: within each dialect, and between that dialect and the captures as they are.
+/// Returns the largest distances for each dialect.
+pub(crate) fn joined(
+    captures: &[PathBuf],
+    dialects: &[Dialect],
+    folder: &Path,
+) -> Result<Vec<(&'static str, JoinMeasure)>> {
+    let mut sources = Vec::new();
+    for (n, capture) in captures.iter().enumerate() {
+        sources.push(read::import(folder, &format!("capture{n}"), capture)?);
+    }
+    let mut rows = Vec::new();
+    for dialect in dialects {
+        let name = dialect.name;
+        let mut corpus = Corpus::create(&folder.join(format!("{name}-joins.chereme")), name)?;
+        let mut files = Vec::new();
+        for (capture, source) in captures.iter().zip(&sources) {
+            let staged = Staged {
+                clip: source.moving.clip.clone(),
+                frames: Vec::new(),
+            };
+            let stem = capture.file_stem().unwrap_or_default().to_string_lossy();
+            let path = folder.join(format!("{name}-{stem}.bvh"));
+            rig::write(&source.moving, &staged, dialect, &path)?;
+            files.push(path);
+        }
+        for file in files.iter().chain(captures) {
+            let mut hear = unheard;
+            let options = ImportOptions::default();
+            corpus.import(&[file.clone()], &options, &mut Progress::new(&mut hear))?;
+        }
+        rows.push((name, worst_join(&mut corpus, captures.len())?));
+    }
+    Ok(rows)
+}
+
+/// Returns the largest distances at all joins in a corpus that holds `count` recordings in a dialect, then the same as
+/// they are.
+fn worst_join(corpus: &mut Corpus, count: usize) -> Result<JoinMeasure> {
+    let mut worst = JoinMeasure::default();
+    for one in 1..=count {
+        for other in (1..=count).filter(|&other| other != one) {
+            for (first, second) in [(one, other), (one, count + other), (count + one, other)] {
+                let recipe = format!("(recording:{first} | trim) then (recording:{second} | trim)");
+                let made = corpus.preview(&recipe);
+                let Ok(made) = made else {
+                    worst.refused += 1;
+                    continue;
+                };
+                worst = worst.larger(JoinMeasure::of(&made)?);
+            }
+        }
+    }
+    Ok(worst)
+}
+
+/// The body of a dialect, and a few frames of movement on it.
+struct Body {
+    name: &'static str,
+    clip: Clip,
+    anatomy: Arc<Anatomy>,
+}
+
+/// The number of frames in which bones are compared.
+const FRAMES: usize = 4;
+
+impl Body {
+    fn of(name: &'static str, moving: &Moving) -> Result<Self> {
+        let clip = &moving.clip;
+        let last = clip.frames() - 1;
+        let poses = (1..=FRAMES).map(|n| clip.pose(n * last / FRAMES));
+        let poses: Vec<_> = poses.collect();
+        Ok(Self {
+            name,
+            clip: Clip::from_poses(clip.skeleton().clone(), clip.rate(), &poses)?,
+            anatomy: Arc::new(moving.anatomy.clone()),
+        })
+    }
+
+    /// Returns the largest angle by which a bone of foot or thumb points elsewhere on another body, and its name.
+    fn turned_on(&self, other: &Self) -> Result<(f64, String)> {
+        let onto = (other.clip.skeleton(), &other.anatomy);
+        let made = on_body((&self.clip, &self.anatomy), Handedness::Right, onto)?;
+        let mut worst = (0.0, String::new());
+        for frame in 0..FRAMES {
+            let before = bones(
+                self.clip.skeleton(),
+                &self.anatomy,
+                &self.clip.model_pose(frame),
+            );
+            let after = bones(
+                other.clip.skeleton(),
+                &other.anatomy,
+                &made.clip.model_pose(frame),
+            );
+            for (part, bone) in &before {
+                let same = after.iter().find(|(other, _)| other == part);
+                let angle = same.map_or(0.0, |(_, other)| bone.angle_between(*other));
+                if angle > worst.0 {
+                    worst = (angle, part.to_string());
+                }
+            }
+        }
+        Ok(worst)
+    }
+}
+
+/// Puts the movement of each dialect on the body of each; returns the names of both, the largest angle by which a bone of
+/// foot or thumb is turned away, in radians, and the bone.
+pub(crate) fn turned(capture: &Path, folder: &Path) -> Result<Vec<Turned>> {
+    let source = read::import(folder, "staged", capture)?;
+    let staged = rig::staged(&source.moving)?;
+    let mut bodies = Vec::new();
+    for dialect in dialect::all() {
+        let path = folder.join(format!("{}-staged.bvh", dialect.name));
+        rig::write(&source.moving, &staged, &dialect, &path)?;
+        let moving = read::import(folder, &format!("{}-staged", dialect.name), &path)?;
+        bodies.push(Body::of(dialect.name, &moving.moving)?);
+    }
+    let mut all = Vec::new();
+    for from in &bodies {
+        for onto in &bodies {
+            let (angle, part) = from.turned_on(onto)?;
+            all.push((from.name, onto.name, angle, part));
+        }
+    }
+    Ok(all)
+}
+
+/// The names of two dialects, an angle in radians, and the name of a part.
+type Turned = (&'static str, &'static str, f64, String);
+
+/// Returns the directions of the bones of feet and thumbs in model space.
+fn bones(skeleton: &Skeleton, anatomy: &Anatomy, model: &ModelPose) -> Vec<(Part, DVec3)> {
+    let mut bones = Vec::new();
+    for side in Side::BOTH {
+        let foot = [Part::Foot(side), Part::Toes(side)];
+        let thumb = [0, 1, 2].map(|n| Part::Thumb(side, n));
+        for chain in [&foot[..], &thumb[..]] {
+            let joints: Vec<(Part, usize)> = chain
+                .iter()
+                .filter_map(|&part| Some((part, anatomy.joint(part)?)))
+                .collect();
+            for (n, &(part, joint)) in joints.iter().enumerate() {
+                let below = skeleton.children(joint);
+                let end = match joints.get(n + 1) {
+                    Some(&(_, next)) => Some(model.position(next)),
+                    None => match (anatomy.tip(skeleton, joint), below) {
+                        (Some(tip), _) => Some(model.point(joint, tip)),
+                        (None, [child]) => Some(model.position(*child)),
+                        _ => None,
+                    },
+                };
+                let bone = end.and_then(|end| (end - model.position(joint)).try_normalize());
+                bones.extend(bone.map(|bone| (part, bone)));
+            }
+        }
+    }
+    bones
+}
