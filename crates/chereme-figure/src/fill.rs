@@ -54,8 +54,12 @@ impl Band<'_> {
     #[inline(always)]
     fn triangle(&mut self, corners: [&Corner; 3]) {
         let [a, b, c] = corners;
+        // Places of corners that are not seen may be too far away to subtract.
+        if !(a.seen && b.seen && c.seen) {
+            return;
+        }
         let area = cross(a.at, b.at, c.at);
-        if area >= 0 || !(a.seen && b.seen && c.seen) {
+        if area >= 0 {
             return;
         }
         let range = |axis: usize, first: usize, count: usize| {

@@ -150,6 +150,7 @@ fn triangles_behind_the_camera_or_far_outside_are_left_out() {
     for at in [
         Vec3::Z * 9.0,
         Vec3::new(0.0, 0.0, 5.0),
+        Vec3::new(0.0, 1e3, 5.0 - 1e-7),
         Vec3::X * 1e9,
         Vec3::splat(f32::NAN),
     ] {
