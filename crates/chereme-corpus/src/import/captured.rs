@@ -9,7 +9,7 @@ use chereme_formats::points::{self as point_tables, PointFile};
 use chereme_formats::table::annotations;
 use chereme_formats::tracks::{Content, Tracks, another_rate};
 use chereme_formats::{Finding, Scene, curves, gltf, keypoints};
-use chereme_motion::{Anatomy, Capture, Convention, Rate, Skeleton, Space};
+use chereme_motion::{Anatomy, Axes, Capture, Clip, Convention, Part, Rate, Side, Skeleton, Space};
 use chereme_sign::{Choice, Remedy};
 
 use super::report::ReportFinding;
@@ -343,9 +343,12 @@ fn facing(
     let found = seen_in(0);
     let axes = found.convention.axes;
     let is_sure = found.axes_confidence >= bvh::SURE;
-    // A take may begin lying, or in a posture of the file's program.
+    // A take may begin in a posture of the file's program.
     let stays = || seen_in(scene.clip.frames() / 2).convention.axes.up() == axes.up();
-    let is_righted = is_sure && axes.up() != stated.axes.up() && stays();
+    let is_righted = is_sure
+        && axes.up() != stated.axes.up()
+        && stays()
+        && legs_continue(&scene.clip, anatomy, axes);
     let agrees = is_sure && axes.up() == stated.axes.up() || is_righted;
     if is_righted && options.axes.is_none() {
         report.findings.push(ReportFinding::warning(
@@ -376,6 +379,22 @@ fn facing(
             .axes
             .unwrap_or(if agrees { axes } else { stated.axes }),
     }
+}
+
+/// Returns whether the legs continue the trunk downwards in the first frame, so that the body does not only bend over.
+/// A body without feet is believed if its trunk is.
+fn legs_continue(clip: &Clip, anatomy: &Anatomy, axes: Axes) -> bool {
+    let (skeleton, up) = (clip.skeleton(), axes.up().vector());
+    let pose = match clip.frames() {
+        0 => skeleton.rest_model_pose(),
+        _ => clip.model_pose(0),
+    };
+    Side::BOTH.into_iter().all(|side| {
+        let joint = |part| anatomy.joint(part).map(|joint| pose.position(joint));
+        let leg = joint(Part::Thigh(side)).zip(joint(Part::Foot(side)));
+        let leg = leg.and_then(|(thigh, foot)| (thigh - foot).try_normalize());
+        leg.is_none_or(|leg| leg.dot(up) > bvh::SURE)
+    })
 }
 
 /// The stature in metres from which a body may be wrong by a factor of three either way.
