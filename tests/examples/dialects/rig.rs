@@ -341,7 +341,7 @@ fn join_collars(source: &Moving, rest: &ModelPose, bones: &mut [Bone]) {
     }
 }
 
-/// Returns for each bone the rotation whose Z axis is the bone at rest.
+/// Returns for each bone the rotation whose Z axis is the bone at rest, or the opposite in the legs: a pole that stands.
 fn own_axes(source: &Moving, bones: &[Bone], place: impl Fn(&Bone) -> DVec3) -> Vec<DQuat> {
     let goes_on = |bone: &&Bone| {
         let part = source.anatomy.part_of(bone.of);
@@ -356,8 +356,11 @@ fn own_axes(source: &Moving, bones: &[Bone], place: impl Fn(&Bone) -> DVec3) -> 
         let children = bones.iter().filter(|child| child.parent == Some(n));
         let next = children.clone().find(goes_on).or(children.clone().next());
         let along = next.and_then(|next| (place(next) - place(bone)).try_normalize());
+        let part = source.anatomy.part_of(bone.of);
+        let is_leg = matches!(part, Some(Part::Thigh(_) | Part::Shin(_) | Part::Foot(_)));
+        let axis = if is_leg { DVec3::NEG_Z } else { DVec3::Z };
         own.push(match along {
-            Some(along) => DQuat::from_rotation_arc(above * DVec3::Z, along) * above,
+            Some(along) => DQuat::from_rotation_arc(above * axis, along) * above,
             None => above,
         });
     }
