@@ -16,6 +16,7 @@ use crate::db::contents::generation;
 use crate::db::recordings::{self, RecordingRow};
 use crate::error::Result;
 use crate::movement::{BLOCK_FRAMES, ChannelGroup, MotionTrack};
+use crate::usable::UsableTake;
 
 /// The largest number of a signer's takes that are read.
 const TAKES: usize = 12;
@@ -40,23 +41,6 @@ pub(crate) struct Kept {
     hands: BTreeMap<(i64, Option<String>), Bones>,
     resting: BTreeMap<i64, Vec<Side>>,
     takes: BTreeMap<i64, UsableTake>,
-}
-
-/// The part of a recording that pictures and measures use.
-#[derive(Debug, Clone)]
-pub(crate) struct UsableTake {
-    /// The frames without odd ones at the ends.
-    pub(crate) frames: Range<usize>,
-    /// Whether any joint turns in them, besides those that carry the whole body.
-    pub(crate) bends: bool,
-}
-
-impl UsableTake {
-    /// Returns the usable ones of some frames; all of them if none is.
-    pub(crate) fn within(&self, frames: Range<usize>) -> Range<usize> {
-        let usable = frames.start.max(self.frames.start)..frames.end.min(self.frames.end);
-        if usable.is_empty() { frames } else { usable }
-    }
 }
 
 /// The lengths of the bones of both hands in metres, by the part at their ends.

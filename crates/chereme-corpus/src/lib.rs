@@ -63,6 +63,7 @@ mod tokens;
 mod track;
 mod transcribe;
 mod unfinished;
+mod usable;
 mod values;
 pub mod words;
 

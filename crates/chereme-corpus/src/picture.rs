@@ -187,32 +187,6 @@ impl Corpus {
         self.movement_in(address, None, &ChannelGroup::ALL)
     }
 
-    /// Returns the movement at an address without frames that are left out of measures and pictures.
-    ///
-    /// # Errors
-    /// As [`movement`](Self::movement).
-    pub fn usable_movement(&self, address: &Address) -> Result<Moving> {
-        let stretch = address::stretch(self.store.read(), address)?;
-        let span = self.usable_span(&stretch)?;
-        self.movement_in(address, Some(span), &ChannelGroup::ALL)
-    }
-
-    /// Returns the span of a stretch's usable frames; all of it if its recording has no movement.
-    fn usable_span(&self, stretch: &Stretch) -> Result<Span> {
-        let (connection, recording) = (self.store.read(), &stretch.recording);
-        if recordings::body_track(connection, recording.id)?.is_none() {
-            return Ok(stretch.span);
-        }
-        let track = MotionTrack::of(connection, recording.id)?;
-        let take = crate::hands::usable_take(connection, &self.hands, recording)?;
-        let all = track.frames_in(stretch.span);
-        let usable = take.within(all.clone());
-        if usable == all {
-            return Ok(stretch.span);
-        }
-        Ok(track.rate.span(usable).shifted(track.row.offset_us))
-    }
-
     /// Returns part of the movement at an address: a span of the recording, and some channel groups; joints of other
     /// groups stay at rest.
     ///

@@ -2,13 +2,10 @@
 
 mod again;
 
-use std::ops::Range;
-
 use chereme_analysis::transcribe::{
     Feature, FeatureKind, Options, Stage, transcribe, transcribe_proven,
 };
-use chereme_motion::ends::activity;
-use chereme_motion::{Anatomy, HandCorrection, Side, Span};
+use chereme_motion::{HandCorrection, Side, Span};
 use chereme_sign::Remedy;
 use chereme_sign::hamnosys::{Nonmanual, Notated, Sign, print, to_names};
 use serde::Serialize;
@@ -215,26 +212,6 @@ impl Corpus {
             assumed,
             findings,
         })
-    }
-
-    /// Returns the frames of a stretch that are read: its usable ones, and of a whole recording those between its rests.
-    fn signed_frames(
-        &self,
-        (track, anatomy): (&MotionTrack, &Anatomy),
-        stretch: &Stretch,
-    ) -> Result<Range<usize>> {
-        let connection = self.store.read();
-        let all = track.frames_in(stretch.span);
-        let take = crate::hands::usable_take(connection, &self.hands, &stretch.recording)?;
-        let usable = take.within(all.clone());
-        if stretch.token.is_some() || all != (0..track.frames()) {
-            return Ok(usable);
-        }
-        let clip = track.clip(connection, usable.clone(), &ChannelGroup::ALL)?;
-        let active = activity(&clip, anatomy);
-        Ok(active.map_or(usable.clone(), |it| {
-            it.start + usable.start..it.end + usable.start
-        }))
     }
 
     /// Transcribes a token as [`transcribe`](Self::transcribe) does, and stores the result as its notation. Keeps the

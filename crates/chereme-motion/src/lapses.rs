@@ -171,9 +171,13 @@ impl Lapses {
     }
 }
 
-/// Returns whether any joint turns or moves, besides markers and the joints that carry the whole body.
+/// Returns whether any joint turns or moves, besides markers and the joints that carry the whole body. A skeleton without
+/// an arm counts as one whose joints turn.
 #[must_use]
 pub fn has_bending_joints(clip: &Clip, anatomy: &Anatomy) -> bool {
+    if !Side::BOTH.iter().any(|&side| anatomy.arm(side).is_some()) {
+        return true;
+    }
     let skeleton = clip.skeleton();
     let hips = anatomy.joint(Part::Hips).unwrap_or(0);
     let carriers: Vec<usize> = skeleton.ancestors(hips).collect();

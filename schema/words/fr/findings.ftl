@@ -107,3 +107,5 @@ message-findings-annotations-without-text-not-in-textgrid = des annotations sans
 message-findings-at-on-overlaps-others-in-textgrid = { $text } à { $time } sur { $name } en chevauche d’autres ; dans le TextGrid elle commence à { $start }
 message-findings-copy-part-corpus-chereme-in-folder = c’est la copie d’une partie de corpus.chereme, dans le dossier d’une exportation
 message-findings-open-corpus-chereme-folder-merge-into = ouvrez le corpus.chereme de ce dossier, ou réunissez-le avec le vôtre : `chereme merge CORPUS AUTRE`
+message-findings-these-finger-bones-over-twice-as = ces os des doigts sont plus de deux fois plus longs que ceux de l’autre main et des autres doigts : { $names }
+message-findings-they-drawn-where-file-has-them = ils sont dessinés là où le fichier les place : corrigez le squelette dans le programme qui l’a écrit, et importez de nouveau le fichier

@@ -669,5 +669,19 @@ fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
             "the stored numbers stay those of the file; if the fingers are right and the rest is not, say the unit with --unit",
         )
     });
-    notes.chain(long).collect()
+    let bones = anatomy.long_finger_bones(skeleton);
+    let bones: Vec<&str> = bones
+        .iter()
+        .map(|&it| skeleton.joint(it).name.as_str())
+        .collect();
+    let bones = (!bones.is_empty()).then(|| {
+        ReportFinding::warning(
+            format!(
+                "these finger bones are over twice as long as those of the other hand and of the other fingers: {}",
+                bones.join(", ")
+            ),
+            "they are drawn where the file has them: mend the skeleton in the program that wrote it, and import the file again",
+        )
+    });
+    notes.chain(long).chain(bones).collect()
 }

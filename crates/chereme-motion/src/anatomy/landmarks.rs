@@ -305,7 +305,7 @@ impl Anatomy {
             (1..4).map(|n| Part::Finger(side, finger, n)).collect()
         };
         let last = parts.iter().rev().find_map(|&part| self.joint(part))?;
-        if let Some(tip) = super::fingers::digit_tip(self, skeleton, last) {
+        if let Some(tip) = super::tips::digit_tip(self, skeleton, last) {
             return Some(model.point(last, tip));
         }
         let from = model.position(skeleton.parent(last)?);

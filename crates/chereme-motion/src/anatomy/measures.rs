@@ -117,7 +117,7 @@ fn hand_length(
         let tip = skeleton.joint(hand).tip.map(DVec3::length);
         return tip.filter(|&length| length > least && length < most);
     };
-    let tip = super::fingers::digit_tip(anatomy, skeleton, last);
+    let tip = super::tips::digit_tip(anatomy, skeleton, last);
     let tip = tip.map_or(0.8 * skeleton.joint(last).offset.length(), DVec3::length);
     let whole = length(skeleton, last, hand) + tip;
     // A finger of impossible bones does not make a giant's hand.

@@ -25,6 +25,7 @@
 //! | `roles` | the user's assignment of joints to parts |
 //! | `measures` | the size of the body, the frame of the trunk |
 //! | `posture` | the T-pose, in which skins are bound and avatars rest |
+//! | `tips` | the ends of thumbs and fingers, and impossible lengths of their bones |
 //! | `convention` | the unit and axes a skeleton was written in |
 //! | `landmarks` | places on the body |
 //! | `range` | the angles of straight and fully bent fingers, from a signer's own takes |
@@ -42,6 +43,7 @@ mod part;
 mod posture;
 mod range;
 mod roles;
+mod tips;
 mod topology;
 
 #[cfg(test)]
@@ -55,11 +57,11 @@ use glam::{DMat3, DQuat, DVec3};
 use serde::{Deserialize, Serialize};
 
 pub use convention::{ConventionGuess, detect_convention};
-pub use fingers::OddTip;
 pub use measures::{BodyFrame, Measures};
 pub use part::{Part, PartError};
 pub use range::{HandCorrection, HandRange};
 pub use roles::{Roles, RolesError};
+pub use tips::OddTip;
 
 use crate::clip::Clip;
 use crate::hand::{Finger, Side};

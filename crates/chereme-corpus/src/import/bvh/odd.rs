@@ -53,7 +53,7 @@ pub(in crate::import) fn report_odd_frames(
         ));
     }
     report.understood.lapses = Some(texts);
-    if !lapses.bends {
+    if !lapses.bends && stored.frames() > 1 {
         report.findings.push(ReportFinding::warning(
             "no joint of the body turns in this take: its arms and hands stand still",
             "export the take again with the movement of all joints, and import that file; nothing is proposed for this one",
