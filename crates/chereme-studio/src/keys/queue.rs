@@ -18,6 +18,8 @@ use crate::{clipboard, layout};
 #[derive(Debug, Default)]
 pub(crate) struct KeyQueue {
     events: VecDeque<Event>,
+    /// Whether the last frame handed out a key that may close a field, which loses the focus only in this frame.
+    rests: bool,
 }
 
 impl KeyQueue {
@@ -88,6 +90,10 @@ impl Studio {
     /// wait for its end.
     pub(crate) fn take_keys(&mut self, ctx: &Context) {
         ctx.input_mut(|input| self.waiting.collect(input));
+        if std::mem::take(&mut self.waiting.rests) {
+            ctx.request_repaint();
+            return;
+        }
         let (mut acted, mut passed) = (false, Vec::new());
         while let Some(event) = self.waiting.next_event() {
             let listens = self.overlays.takes_keys();
@@ -113,6 +119,7 @@ impl Studio {
                 self.overlays.notices.may_close = closes && !place.menu && !place.typing;
                 passed.push(event);
                 if closes {
+                    self.waiting.rests = true;
                     ctx.request_repaint();
                     break;
                 }

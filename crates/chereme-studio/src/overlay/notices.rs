@@ -514,6 +514,31 @@ mod tests {
     }
 
     #[test]
+    fn escape_closes_one_notice_that_stays_if_nothing_else_takes_it() {
+        use eframe::egui::{Event, Key, Modifiers, RawInput};
+        let mut notices = Notices::default();
+        notices.say("one", None);
+        notices.say("two", None);
+        let ctx = Context::default();
+        for (may_close, left) in [(false, 2), (true, 1), (false, 1), (true, 0)] {
+            notices.may_close = may_close;
+            let escape = Event::Key {
+                key: Key::Escape,
+                physical_key: None,
+                pressed: true,
+                repeat: false,
+                modifiers: Modifiers::NONE,
+            };
+            let input = RawInput {
+                events: vec![escape],
+                ..RawInput::default()
+            };
+            drop(ctx.run_ui(input, |ui| notices.take_escape(ui.ctx())));
+            assert_eq!(notices.all.len(), left);
+        }
+    }
+
+    #[test]
     fn faults_found_by_a_check_stay_visible_with_their_locations() {
         let mut notices = Notices::default();
         let well = CheckReport {
