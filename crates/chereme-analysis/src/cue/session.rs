@@ -479,10 +479,9 @@ fn gestures(
         .zip(&other)
         .map(|(a, b)| (a.fingers, b.fingers));
     let measured = both.filter(|(a, b)| a.measured && b.measured);
-    let gain: f64 = measured
-        .map(|(a, b)| b.movement.explained - a.movement.explained)
-        .sum();
-    if gain > 0.0 {
+    let votes = measured.map(|(a, b)| b.movement.explained > a.movement.explained);
+    let (ayes, noes): (Vec<bool>, Vec<bool>) = votes.partition(|vote| *vote);
+    if ayes.len() > noes.len() {
         for (usual, other) in usual.iter_mut().zip(other) {
             usual.fingers = other.fingers;
         }

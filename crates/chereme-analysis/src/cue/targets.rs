@@ -234,7 +234,7 @@ impl Fit {
         length: 0.0,
     };
 
-    fn of(seen: &[(f64, [&[f64]; 2])], course: Interpolation, (start, end): (f64, f64)) -> Self {
+    fn of(seen: &[(f64, [&[f64]; 2])], course: Interpolation, start: f64, end: f64) -> Self {
         let width = seen.first().map_or(0, |(_, rows)| rows[0].len());
         let share = |time: f64| course.share((time - start) / (end - start));
         let count = seen.len() as f64;

@@ -17,7 +17,7 @@
 //! | `motion`, `wrist_cycle` | motions, repetitions, sequences; movement about the wrist |
 //! | `path`, `pace` | paths through space; their course in time |
 //! | `stage` | the body: its surface, points of its hands |
-//! | `thumb`, `rest`, `lift` | the thumb of a pinch; hands at rest; arms raised to be touched |
+//! | `thumb`, `crossed`, `rest`, `lift` | the thumb of a pinch; crossed fingers; hands at rest; arms raised to be touched |
 //! | `arm` | elbow, collar bone, wrist |
 //! | `track`, `outlines` | from events to the goals and outlines of the hands in each frame |
 //! | `hands_apart` | separation of two hands whose paths would pass through each other |
@@ -39,6 +39,7 @@ mod approach;
 mod arm;
 mod bulk;
 mod comfort;
+mod crossed;
 #[cfg(test)]
 mod crossed_tests;
 mod duration;

@@ -42,6 +42,7 @@ pub(crate) fn posed(
     handshape: &Handshape,
     angles: &HandAngles,
 ) -> Shape {
+    let angles = &super::crossed::crossed_angles(stage, side, handshape, angles);
     let own = handshape.between.is_none()
         && handshape.thumb.is_none()
         && handshape.bends[0].is_none()

@@ -184,7 +184,7 @@ fn degrees_and_radians_are_distinguished_by_their_size() {
 fn units_of_faces_that_are_converted_or_guessed_are_reported_at_import() {
     // The title of the turns with their largest value, the shapes' largest value, the yaw (rad), and what is said.
     let cases = [
-        ("HeadYaw", 20.0, 0.9, 0.349, "read as degrees"),
+        ("HeadYaw", 20.0, 0.9, 0.349, "degrees"),
         ("HeadYaw [deg]", 20.0, 0.9, 0.349, "are degrees"),
         ("HeadYaw_deg", 1.0, 0.9, 0.0175, "are degrees"),
         ("HeadYaw (degrees)", 1.0, 0.9, 0.0175, "are degrees"),

@@ -304,18 +304,32 @@ fn middle(a: &Shape, b: &Shape) -> Shape {
     }
 }
 
+/// Returns the fingers of a contact that cross, the one nearer to the thumb first; `None` if they only touch, at a base or
+/// a side.
+#[must_use]
+pub fn crossed_fingers(contact: &FingerContact) -> Option<[Finger; 2]> {
+    let (one, other) = (finger_of(contact.first)?, finger_of(contact.second)?);
+    let touches = matches!(contact.part, Some(FingerPart::Base | FingerPart::Side));
+    (!touches && one != other).then(|| match one.index() < other.index() {
+        true => [one, other],
+        false => [other, one],
+    })
+}
+
 /// Crosses two fingers so that their tips change sides: the finger nearer to the thumb passes in front of the other, which
 /// curls about it. Fingers that touch at a base or a side come together.
 fn cross(hand: &mut Shape, contact: &FingerContact) {
-    let (Some(one), Some(other)) = (finger_of(contact.first), finger_of(contact.second)) else {
+    let Some([front, back]) = crossed_fingers(contact) else {
+        let fingers = [
+            contact.first.min(contact.second),
+            contact.first.max(contact.second),
+        ];
+        for (finger, towards) in fingers.into_iter().filter_map(finger_of).zip([-4.0, 4.0]) {
+            hand.spread[finger.index()] = towards;
+        }
         return;
     };
-    let front = one.index().min(other.index());
-    let back = one.index().max(other.index());
-    if matches!(contact.part, Some(FingerPart::Base | FingerPart::Side)) {
-        (hand.spread[front], hand.spread[back]) = (-4.0, 4.0);
-        return;
-    }
+    let (front, back) = (front.index(), back.index());
     (hand.spread[front], hand.spread[back]) = (CROSSED_SPREAD[0], CROSSED_SPREAD[1]);
     for (finger, by) in [front, back].into_iter().zip(CROSSED) {
         let bends = &mut hand.bends[finger];
