@@ -222,7 +222,11 @@ impl Looking<'_, '_> {
             return Err(error);
         }
         let message = format!("this part cannot be read: {error}");
-        self.fault(kind, place, message, BACKUP);
+        // Tiers that cannot be read have no tokens to be compared either.
+        let is_known = |fault: &Fault| fault.place == place && fault.message == message;
+        if !self.report.faults.iter().any(is_known) {
+            self.fault(kind, place, message, BACKUP);
+        }
         Ok(())
     }
 
