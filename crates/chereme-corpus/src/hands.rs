@@ -3,7 +3,6 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
-use std::ops::Range;
 
 use chereme_motion::lapses::has_bending_joints;
 use chereme_motion::{Anatomy, Clip, HandCorrection, HandRange, Part, Side};
