@@ -319,7 +319,7 @@ impl<'a> Evaluator<'a> {
     ) -> Result<Done, Cause> {
         let mut given = self.given(path, text);
         let operator = step.operator();
-        let before = StepSpeeds::peaks_of(work);
+        let before = StepSpeeds::peak_speeds(work);
         let longer = operator.make_time(work)?;
         let touched = operator.contacts(work.handedness);
         let mut touched = touched.map(|(carry, keep)| {
@@ -337,7 +337,7 @@ impl<'a> Evaluator<'a> {
             done.lost.extend(contact::lost(before, work, *carry));
             done.warnings.extend(contact::long_repairs(before, text));
         }
-        let added = speed::check_added(before, StepSpeeds::peaks_of(work))?;
+        let added = speed::check_added(before, StepSpeeds::peak_speeds(work))?;
         let warnings = added.iter().map(|added| format!("{text}: {added}"));
         done.warnings.extend(warnings);
         done.did.append(&mut given.aside);

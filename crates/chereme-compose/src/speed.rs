@@ -8,7 +8,7 @@ use crate::error::Cause;
 use crate::work::{Columns, Work};
 
 /// Parts of the body whose speed is watched.
-struct Watched {
+struct WatchedPart {
     name: &'static str,
     parts: &'static [Part],
     /// The speed in metres per second that a step may add without a warning: signers stand on their feet, and the
@@ -16,18 +16,18 @@ struct Watched {
     unwarned: f64,
 }
 
-const WATCHED: [Watched; 3] = [
-    Watched {
+const WATCHED_PARTS: [WatchedPart; 3] = [
+    WatchedPart {
         name: "the hips",
         parts: &[Part::Hips],
         unwarned: 0.5,
     },
-    Watched {
+    WatchedPart {
         name: "the wrists",
         parts: &[Part::Hand(Side::Right), Part::Hand(Side::Left)],
         unwarned: 4.0,
     },
-    Watched {
+    WatchedPart {
         name: "the feet",
         parts: &[Part::Foot(Side::Right), Part::Foot(Side::Left)],
         unwarned: 0.5,
@@ -35,18 +35,18 @@ const WATCHED: [Watched; 3] = [
 ];
 
 /// The multiple of the unwarned speed above which a step is refused.
-const REFUSED: f64 = 3.0;
+const REFUSED_MULTIPLE: f64 = 3.0;
 
 /// The greatest speeds of hips, wrists and feet in metres per second; zero for parts that the skeleton lacks.
-pub(crate) type Peaks = [f64; WATCHED.len()];
+pub(crate) type PeakSpeeds = [f64; WATCHED_PARTS.len()];
 
 /// The speed of hips, wrists and feet from each frame to the next in metres per second, that of the faster side; empty
 /// for parts that the skeleton lacks.
-pub(crate) struct StepSpeeds([Vec<f64>; WATCHED.len()]);
+pub(crate) struct StepSpeeds([Vec<f64>; WATCHED_PARTS.len()]);
 
 impl StepSpeeds {
-    pub(crate) fn measure(work: &Work) -> Self {
-        let joints = WATCHED.map(|watched| {
+    pub(crate) fn between_frames(work: &Work) -> Self {
+        let joints = WATCHED_PARTS.map(|watched| {
             let parts = watched.parts.iter();
             let joints = parts.filter_map(|&part| work.anatomy.joint(part));
             joints.collect::<Vec<usize>>()
@@ -68,12 +68,12 @@ impl StepSpeeds {
     }
 
     /// Returns the greatest speeds over a whole movement.
-    pub(crate) fn peaks_of(work: &Work) -> Peaks {
-        Self::measure(work).peaks(0..work.frames)
+    pub(crate) fn peak_speeds(work: &Work) -> PeakSpeeds {
+        Self::between_frames(work).peaks_over(0..work.frames)
     }
 
     /// Returns the greatest speeds over some steps; step n goes from frame n to the next.
-    pub(crate) fn peaks(&self, steps: Range<usize>) -> Peaks {
+    pub(crate) fn peaks_over(&self, steps: Range<usize>) -> PeakSpeeds {
         self.0.each_ref().map(|speeds| {
             let end = steps.end.min(speeds.len());
             let speeds = &speeds[steps.start.min(end)..end];
@@ -83,8 +83,8 @@ impl StepSpeeds {
 
     /// Returns the speeds here and in `before` at the moments at which this movement is the most faster; both have the
     /// same frames. Parts that one of them lacks are left out.
-    pub(crate) fn most_added(&self, before: &Self) -> (Peaks, Peaks) {
-        let pairs: [(f64, f64); WATCHED.len()] = std::array::from_fn(|n| {
+    pub(crate) fn most_added(&self, before: &Self) -> (PeakSpeeds, PeakSpeeds) {
+        let pairs: [(f64, f64); WATCHED_PARTS.len()] = std::array::from_fn(|n| {
             let pairs = before.0[n].iter().copied().zip(self.0[n].iter().copied());
             let most = pairs.max_by(|a, b| (a.1 - a.0).total_cmp(&(b.1 - b.0)));
             most.unwrap_or_default()
@@ -94,10 +94,10 @@ impl StepSpeeds {
 
     /// Returns the speeds between two pieces, a sentence for each part.
     pub(crate) fn between_pieces(&self, steps: Range<usize>) -> Vec<String> {
-        let peaks = self.peaks(steps);
-        let known = (0..WATCHED.len()).filter(|&n| !self.0[n].is_empty());
+        let peaks = self.peaks_over(steps);
+        let known = (0..WATCHED_PARTS.len()).filter(|&n| !self.0[n].is_empty());
         let sentence = |n: usize| {
-            let name = WATCHED[n].name;
+            let name = WATCHED_PARTS[n].name;
             format!("up to {:.2} m/s at {name} between the pieces", peaks[n])
         };
         known.map(sentence).collect()
@@ -105,7 +105,7 @@ impl StepSpeeds {
 }
 
 /// Returns the faster of two for each part.
-pub(crate) fn faster(one: Peaks, other: Peaks) -> Peaks {
+pub(crate) fn faster_of_both(one: PeakSpeeds, other: PeakSpeeds) -> PeakSpeeds {
     std::array::from_fn(|n| one[n].max(other[n]))
 }
 
@@ -113,16 +113,16 @@ pub(crate) fn faster(one: Peaks, other: Peaks) -> Peaks {
 ///
 /// # Errors
 /// [`Cause::Rushed`] if it adds over three times that.
-pub(crate) fn check_added(before: Peaks, after: Peaks) -> Result<Vec<String>, Cause> {
+pub(crate) fn check_added(before: PeakSpeeds, after: PeakSpeeds) -> Result<Vec<String>, Cause> {
     let mut warnings = Vec::new();
-    for (n, watched) in WATCHED.iter().enumerate() {
+    for (n, watched) in WATCHED_PARTS.iter().enumerate() {
         let added = after[n] - before[n];
-        if added > REFUSED * watched.unwarned {
+        if added > REFUSED_MULTIPLE * watched.unwarned {
             return Err(Cause::Rushed {
                 part: watched.name,
                 speed: after[n],
                 added,
-                most: REFUSED * watched.unwarned,
+                most: REFUSED_MULTIPLE * watched.unwarned,
             });
         }
         if added > watched.unwarned {

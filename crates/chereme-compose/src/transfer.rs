@@ -7,7 +7,7 @@ use chereme_motion::{Anatomy, Clip, Skeleton};
 use chereme_sign::Handedness;
 
 use crate::error::Cause;
-use crate::ops::retarget::{self, Onto};
+use crate::ops::retarget::{self, TargetBody};
 use crate::work::Work;
 
 /// Movement on another body.
@@ -43,7 +43,11 @@ pub fn on_body(
         curves: Vec::new(),
         from: BTreeMap::new(),
     };
-    let done = retarget::touching(&work, &Onto::at_rest(skeleton, of_body), "another body")?;
+    let done = retarget::touching(
+        &work,
+        &TargetBody::at_rest(skeleton, of_body),
+        "another body",
+    )?;
     Ok(Transferred {
         clip: done.work.into_clip()?,
         contacts: done.contacts,

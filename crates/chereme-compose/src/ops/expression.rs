@@ -8,7 +8,7 @@ use chereme_sign::Component;
 use chereme_sign::milestones::{EDGE, Function, Milestones, milestones};
 
 use crate::error::Cause;
-use crate::ops::retarget::{self, Onto};
+use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{About, Curve, Note};
 use crate::recipe::{Nonmanual, Over};
 use crate::resolve::ExpressionInput;
@@ -44,7 +44,7 @@ pub(crate) fn expression(
     };
     let mut other = Work::of(donor);
     if other.skeleton != work.skeleton {
-        other = retarget::retarget(&other, &Onto::at_rest(&work.skeleton, &work.anatomy))?;
+        other = retarget::retarget(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy))?;
     } else {
         other.skeleton = Arc::clone(&work.skeleton);
     }

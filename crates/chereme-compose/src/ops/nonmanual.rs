@@ -6,7 +6,7 @@ use chereme_sign::Component;
 use chereme_sign::words::Text;
 
 use crate::error::Cause;
-use crate::ops::retarget::{self, Onto};
+use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{About, Curve, Note};
 use crate::sources::Material;
 use crate::work::{Group, Work, groups};
@@ -274,7 +274,7 @@ pub(crate) fn nonmanual(
     let mut other = Work::of(donor);
     let (seconds, own) = (other.span().seconds(), work.span().seconds());
     if other.skeleton != work.skeleton {
-        other = retarget::retarget(&other, &Onto::at_rest(&work.skeleton, &work.anatomy))?;
+        other = retarget::retarget(&other, &TargetBody::at_rest(&work.skeleton, &work.anatomy))?;
     } else {
         other.skeleton = Arc::clone(&work.skeleton);
     }

@@ -24,14 +24,14 @@ pub(crate) struct Touching {
 }
 
 /// The body that receives movement.
-pub(crate) struct Onto<'a> {
+pub(crate) struct TargetBody<'a> {
     pub(crate) skeleton: &'a Arc<Skeleton>,
     pub(crate) anatomy: &'a Arc<Anatomy>,
     /// The posture of joints that the movement says nothing about.
     pub(crate) idle: Pose,
 }
 
-impl<'a> Onto<'a> {
+impl<'a> TargetBody<'a> {
     /// Returns the body with its rest pose for idle joints.
     pub(crate) fn at_rest(skeleton: &'a Arc<Skeleton>, anatomy: &'a Arc<Anatomy>) -> Self {
         Self {
@@ -43,7 +43,11 @@ impl<'a> Onto<'a> {
 }
 
 /// Transfers movement to another skeleton, and moves wrists a little, so that hands touch what they touched.
-pub(crate) fn touching(work: &Work, onto: &Onto<'_>, operator: &str) -> Result<Touching, Cause> {
+pub(crate) fn touching(
+    work: &Work,
+    onto: &TargetBody<'_>,
+    operator: &str,
+) -> Result<Touching, Cause> {
     let touched = contact::touches(work);
     let mut out = retarget(work, onto)?;
     let mut touched = touched.on(&out);
@@ -64,7 +68,7 @@ pub(crate) fn touching(work: &Work, onto: &Onto<'_>, operator: &str) -> Result<T
 /// keep their distance from the shoulders' middle in arms' lengths, fingers keep their joint angles and thumbs the
 /// directions of their bones, the root's path is scaled by the legs' length, and joints that have no counterpart stay in
 /// their idle posture.
-pub(crate) fn retarget(work: &Work, onto: &Onto<'_>) -> Result<Work, Cause> {
+pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause> {
     let (skeleton, anatomy) = (onto.skeleton, onto.anatomy);
     for side in Side::BOTH {
         if anatomy.arm(side).is_some() && work.anatomy.arm(side).is_none() {

@@ -11,7 +11,7 @@ use crate::course::Courses;
 use crate::error::Cause;
 use crate::ops::cut;
 use crate::ops::join::{self, Cut, Seam};
-use crate::ops::retarget::{self, Onto};
+use crate::ops::retarget::{self, TargetBody};
 use crate::outcome::{About, Note};
 use crate::speed::{self, StepSpeeds};
 use crate::units::Seconds;
@@ -37,8 +37,8 @@ pub(crate) fn then(
         Some(next) => next,
         None => {
             did.push("the second signer's movement is put on the first one's body".to_owned());
-            let before = StepSpeeds::measure(&next);
-            let onto = Onto {
+            let before = StepSpeeds::between_frames(&next);
+            let onto = TargetBody {
                 skeleton: &work.skeleton,
                 anatomy: &work.anatomy,
                 idle: work.pose(work.frames - 1),
@@ -46,7 +46,7 @@ pub(crate) fn then(
             let done = retarget::touching(&next, &onto, operator)?;
             did.extend(done.kept);
             contacts = done.lost;
-            let (before, after) = StepSpeeds::measure(&done.work).most_added(&before);
+            let (before, after) = StepSpeeds::between_frames(&done.work).most_added(&before);
             warnings.extend(speed::check_added(before, after)?);
             done.work
         }
@@ -90,15 +90,15 @@ pub(crate) fn then(
         leaves.clone().fold(0, usize::max),
         enters.clone().fold(next.frames, usize::min),
     );
-    let pieces = speed::faster(
-        StepSpeeds::measure(work).peaks(0..latest),
-        StepSpeeds::measure(&next).peaks(earliest..next.frames),
+    let pieces = speed::faster_of_both(
+        StepSpeeds::between_frames(work).peaks_over(0..latest),
+        StepSpeeds::between_frames(&next).peaks_over(earliest..next.frames),
     );
     let joins = join::join(work, next, &seam, courses, operator)?;
     let between = leaves.fold(latest, usize::min)..seam.offset + enters.fold(earliest, usize::max);
-    let speeds = StepSpeeds::measure(work);
+    let speeds = StepSpeeds::between_frames(work);
     did.extend(speeds.between_pieces(between.clone()));
-    warnings.extend(speed::check_added(pieces, speeds.peaks(between))?);
+    warnings.extend(speed::check_added(pieces, speeds.peaks_over(between))?);
     let warnings = warnings.iter().map(|added| format!("{operator}: {added}"));
     Ok(join::Done {
         did,
@@ -253,11 +253,11 @@ fn standing(work: &Work, frame: usize) -> (DVec3, Option<DVec3>) {
         let between = a[frame].midpoint(b[frame]);
         return (between.with_y(heights[heights.len() / 2]), forward);
     }
-    let arms = Side::BOTH.map(|side| Part::UpperArm(side));
-    let parts = [Part::Hips, Part::Chest, Part::Head]
+    let arms = Side::BOTH.map(Part::UpperArm);
+    let mut parts = [Part::Hips, Part::Chest, Part::Head]
         .into_iter()
         .chain(arms);
-    let known = parts.filter_map(|part| work.anatomy.joint(part)).next();
+    let known = parts.find_map(|part| work.anatomy.joint(part));
     (model.position(known.unwrap_or(0)), forward)
 }
 

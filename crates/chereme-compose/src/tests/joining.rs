@@ -117,7 +117,7 @@ fn along_one_axis(material: &Material, gloss: &str) -> Material {
     let above = |joint: usize| {
         skeleton
             .parent(joint)
-            .map_or(DQuat::IDENTITY, |it| turns[it])
+            .map_or(DQuat::IDENTITY, |parent| turns[parent])
     };
     let joints = skeleton
         .joints()
