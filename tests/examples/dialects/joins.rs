@@ -15,13 +15,6 @@ use crate::dialect::{self, Dialect};
 use crate::read;
 use crate::rig::{self, Staged};
 
-/// The largest distance of the hips from the straight line between two pieces, in metres.
-pub(crate) const HIPS: f64 = 0.02;
-/// The largest distance of a standing foot from the floor of the first piece, in metres.
-pub(crate) const FLOOR: f64 = 0.01;
-/// The largest angle between a bone and its counterpart on another body, in degrees.
-pub(crate) const BONE: f64 = 5.0;
-
 /// The largest distances at a join, in metres.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct JoinMeasure {
@@ -34,7 +27,7 @@ pub(crate) struct JoinMeasure {
 }
 
 impl JoinMeasure {
-    fn of(made: &Recombination) -> Result<Self> {
+    fn of_join(made: &Recombination) -> Result<Self> {
         let clip = &made.clip;
         let transition = made.notes.iter().find(|note| note.about == "transition");
         let transition = transition.ok_or("the recipe has no transition")?;
@@ -78,7 +71,7 @@ impl JoinMeasure {
 
 /// Joins every capture to every other one: within each dialect, and between that dialect and the captures as they are.
 /// Returns the largest distances for each dialect.
-pub(crate) fn joined(
+pub(crate) fn worst_joins(
     captures: &[PathBuf],
     dialects: &[Dialect],
     folder: &Path,
@@ -105,7 +98,11 @@ pub(crate) fn joined(
         for file in files.iter().chain(captures) {
             let mut hear = unheard;
             let options = ImportOptions::default();
-            corpus.import(&[file.clone()], &options, &mut Progress::new(&mut hear))?;
+            corpus.import(
+                std::slice::from_ref(file),
+                &options,
+                &mut Progress::new(&mut hear),
+            )?;
         }
         rows.push((name, worst_join(&mut corpus, captures.len())?));
     }
@@ -125,7 +122,7 @@ fn worst_join(corpus: &mut Corpus, count: usize) -> Result<JoinMeasure> {
                     worst.refused += 1;
                     continue;
                 };
-                worst = worst.larger(JoinMeasure::of(&made)?);
+                worst = worst.larger(JoinMeasure::of_join(&made)?);
             }
         }
     }
@@ -133,7 +130,7 @@ fn worst_join(corpus: &mut Corpus, count: usize) -> Result<JoinMeasure> {
 }
 
 /// The body of a dialect, and a few frames of movement on it.
-struct Body {
+struct DialectBody {
     name: &'static str,
     clip: Clip,
     anatomy: Arc<Anatomy>,
@@ -142,8 +139,8 @@ struct Body {
 /// The number of frames in which bones are compared.
 const FRAMES: usize = 4;
 
-impl Body {
-    fn of(name: &'static str, moving: &Moving) -> Result<Self> {
+impl DialectBody {
+    fn with_frames(name: &'static str, moving: &Moving) -> Result<Self> {
         let clip = &moving.clip;
         let last = clip.frames() - 1;
         let poses = (1..=FRAMES).map(|n| clip.pose(n * last / FRAMES));
@@ -185,7 +182,7 @@ impl Body {
 
 /// Puts the movement of each dialect on the body of each; returns the names of both, the largest angle by which a bone of
 /// foot or thumb is turned away, in radians, and the bone.
-pub(crate) fn turned(capture: &Path, folder: &Path) -> Result<Vec<Turned>> {
+pub(crate) fn turned_bones(capture: &Path, folder: &Path) -> Result<Vec<TurnedBone>> {
     let source = read::import(folder, "staged", capture)?;
     let staged = rig::staged(&source.moving)?;
     let mut bodies = Vec::new();
@@ -193,7 +190,7 @@ pub(crate) fn turned(capture: &Path, folder: &Path) -> Result<Vec<Turned>> {
         let path = folder.join(format!("{}-staged.bvh", dialect.name));
         rig::write(&source.moving, &staged, &dialect, &path)?;
         let moving = read::import(folder, &format!("{}-staged", dialect.name), &path)?;
-        bodies.push(Body::of(dialect.name, &moving.moving)?);
+        bodies.push(DialectBody::with_frames(dialect.name, &moving.moving)?);
     }
     let mut all = Vec::new();
     for from in &bodies {
@@ -206,7 +203,7 @@ pub(crate) fn turned(capture: &Path, folder: &Path) -> Result<Vec<Turned>> {
 }
 
 /// The names of two dialects, an angle in radians, and the name of a part.
-type Turned = (&'static str, &'static str, f64, String);
+type TurnedBone = (&'static str, &'static str, f64, String);
 
 /// Returns the directions of the bones of feet and thumbs in model space.
 fn bones(skeleton: &Skeleton, anatomy: &Anatomy, model: &ModelPose) -> Vec<(Part, DVec3)> {

@@ -94,7 +94,7 @@ fn table(capture: &Path, folder: &Path) -> Result<String> {
 }
 
 /// The head of the table of joins.
-const JOINS: &str = "
+const JOINS_HEAD: &str = "
 ## Joined pieces, and movement on another body
 
 Every recording of the starter corpus is joined to every other one, within a dialect and between the dialect and the file as
@@ -108,9 +108,9 @@ bone of foot or thumb and its counterpart.
 
 /// Returns the table of joins for the starter corpus.
 fn joins_table(folder: &Path) -> Result<String> {
-    let joined = joins::joined(&starters(folder, &[])?, &dialect::all(), folder)?;
-    let turned = joins::turned(&starter(folder)?, folder)?;
-    let mut text = JOINS.to_owned();
+    let joined = joins::worst_joins(&starters(folder, &[])?, &dialect::all(), folder)?;
+    let turned = joins::turned_bones(&starter(folder)?, folder)?;
+    let mut text = JOINS_HEAD.to_owned();
     for (name, worst) in joined {
         let own = turned.iter().filter(|row| row.0 == name);
         let most = own.max_by(|a, b| a.2.total_cmp(&b.2));
