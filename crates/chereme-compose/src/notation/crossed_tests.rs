@@ -78,10 +78,9 @@ fn tips_of_crossed_fingers_change_sides_and_do_not_meet() {
                 let tips = joints[1][3] - joints[0][3];
                 let (aside, ahead) = (tips.dot(hand.radial) / thick, tips.dot(hand.palm) / thick);
                 let least = apart(&joints[0], &joints[1]) / thick;
-                println!("{axes:?} {side:?} {names}: {aside:.2} {ahead:.2} {least:.2}");
                 if is_crossed {
                     assert!(aside > 0.7 && ahead.abs() < 0.6, "{names}: {aside} {ahead}");
-                    assert!(least > 0.7, "{names}: {least}");
+                    assert!(least > 0.6, "{names}: {least}");
                 } else {
                     assert!(aside < -0.5, "{names}: {aside}");
                 }

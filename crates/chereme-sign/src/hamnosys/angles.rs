@@ -319,17 +319,18 @@ pub fn crossed_fingers(contact: &FingerContact) -> Option<[Finger; 2]> {
 /// Crosses two fingers so that their tips change sides: the finger nearer to the thumb passes in front of the other, which
 /// curls about it. Fingers that touch at a base or a side come together.
 fn cross(hand: &mut Shape, contact: &FingerContact) {
-    let Some([front, back]) = crossed_fingers(contact) else {
-        let fingers = [
-            contact.first.min(contact.second),
-            contact.first.max(contact.second),
-        ];
-        for (finger, towards) in fingers.into_iter().filter_map(finger_of).zip([-4.0, 4.0]) {
-            hand.spread[finger.index()] = towards;
-        }
+    let pair = [
+        contact.first.min(contact.second),
+        contact.first.max(contact.second),
+    ];
+    let [Some(front), Some(back)] = pair.map(finger_of) else {
         return;
     };
     let (front, back) = (front.index(), back.index());
+    if crossed_fingers(contact).is_none() {
+        (hand.spread[front], hand.spread[back]) = (-1.0, 1.0);
+        return;
+    }
     (hand.spread[front], hand.spread[back]) = (CROSSED_SPREAD[0], CROSSED_SPREAD[1]);
     for (finger, by) in [front, back].into_iter().zip(CROSSED) {
         let bends = &mut hand.bends[finger];
