@@ -323,7 +323,8 @@ fn every_spelling_of_a_text_gives_the_same_symbols() {
         let (written, lost) = sigml::write_symbols([&sign]);
         assert_eq!(lost[0].len(), losses, "{text:?}: {lost:?}");
         let (again, _) = sigml::read(&written).expect("we wrote it");
-        assert_eq!(again[0].sign.text.as_deref(), Some(characters), "{text:?}");
+        let read = again[0].sign.text.as_deref().unwrap_or_default();
+        assert_eq!(read.replace(' ', ""), characters, "{text:?}");
     }
 }
 
