@@ -122,12 +122,12 @@ fn proposals_come_into_sight() {
     window
         .get_by_label_contains("strokes: strokes of each wrist")
         .click();
-    let tier = "Tier movement.phase right (proposed)";
     common::until(&mut window, "the strokes", |it| {
         it.query_by_label_contains("Proposals on separate tiers")
             .is_some()
     });
-    window.run_steps(12);
-    // Above the lower edge of the rows.
-    assert!(rect(&window, tier).bottom() <= 764.0);
+    window.run_steps(70);
+    let mut tiers = window.query_all_by_label_contains("(proposed)");
+    // The lower edge of the rows.
+    assert!(tiers.any(|it| it.rect().bottom() <= 764.0));
 }

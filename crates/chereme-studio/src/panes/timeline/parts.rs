@@ -54,8 +54,8 @@ impl View {
 
     /// Brings a tier and a moment into sight.
     pub(super) fn bring_into_sight(&mut self, tier: i64, moment: Instant, whole: Span) {
-        /// As many frames as a changed layout needs, and more.
-        const FRAMES: u8 = 12;
+        /// As many frames as a changed layout needs to rest, and more.
+        const FRAMES: u8 = 60;
         self.other_tier = Some((tier, FRAMES));
         let (moment, width) = (moment.micros() as f64, self.width);
         let follows = |window: Window| window.following(moment, whole, width);

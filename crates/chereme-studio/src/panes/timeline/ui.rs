@@ -366,7 +366,8 @@ impl Drawing<'_, '_> {
         }
         if let Some((tier, frames)) = self.timeline.view.other_tier {
             self.timeline.view.reveal = true;
-            let left = frames.checked_sub(1);
+            let scrolled = ui.input(|input| input.smooth_scroll_delta().y != 0.0);
+            let left = frames.checked_sub(1).filter(|_| !scrolled);
             self.timeline.view.other_tier = left.map(|left| (tier, left));
             ui.ctx().request_repaint();
         }
