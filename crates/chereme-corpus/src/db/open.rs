@@ -19,7 +19,7 @@ use crate::unfinished::{Unfinished, remove_leftovers};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const STEPS: [&str; 13] = [
+const STEPS: [&str; 12] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
@@ -31,8 +31,7 @@ const STEPS: [&str; 13] = [
     include_str!("../../../../schema/sql/0009_tier_roles.sql"),
     include_str!("../../../../schema/sql/0010_studies.sql"),
     include_str!("../../../../schema/sql/0011_consent.sql"),
-    include_str!("../../../../schema/sql/0012_mapping.sql"),
-    include_str!("../../../../schema/sql/0013_seals.sql"),
+    include_str!("../../../../schema/sql/0012_checksums.sql"),
 ];
 
 /// The schema version that this code writes.

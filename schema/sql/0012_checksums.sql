@@ -1,4 +1,7 @@
--- Checksums by which damage is found that the database itself cannot see.
+-- The meanings that a user's mapping gave to columns of an imported table, and checksums by which damage is found that the
+-- database itself cannot see.
+
+ALTER TABLE source_file ADD COLUMN mapping TEXT CHECK (json_valid(mapping));
 
 CREATE TABLE row_seal (
     tbl TEXT NOT NULL,
