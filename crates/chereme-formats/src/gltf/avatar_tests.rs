@@ -47,7 +47,6 @@ fn an_avatar_rests_in_the_t_pose_and_moves_as_the_clip_does() {
     let skeleton = Arc::new(figure());
     let anatomy = chereme_motion::Anatomy::detect(&skeleton);
     let at = |name: &str| skeleton.find(name).expect("a joint");
-    let rate = Rate::new(30, 1).expect("a rate");
     let rest = anatomy.t_pose(&skeleton);
     for (name, direction) in [("Left", DVec3::X), ("Right", -DVec3::X)] {
         for (from, to, want) in [
