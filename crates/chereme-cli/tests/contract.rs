@@ -60,12 +60,17 @@ fn a_generated_sign_is_replaced_in_place() {
     let corpus = desk.corpus().display().to_string();
     let json = |line: String| -> serde_json::Value {
         let done = desk.run(&format!("{line} --json"));
-        assert!(done.status.success(), "{line}: {}", text(&done.stderr));
+        assert!(
+            done.status.success(),
+            "{line}: {} {}",
+            text(&done.stdout),
+            text(&done.stderr)
+        );
         serde_json::from_slice(&done.stdout).expect("JSON")
     };
     let first = json(format!("recombine {corpus} 'BOL | reverse' --as LOB"));
     let second = json(format!(
-        "recombine {corpus} 'BOL | reverse | repeat 2' --replace LOB"
+        "recombine {corpus} 'BOL | reverse | retime 150%' --replace LOB"
     ));
     assert_eq!(second["token"], first["token"]);
     assert_eq!(second["name"], first["name"]);
@@ -165,7 +170,7 @@ fn a_search_is_saved_run_again_and_deleted() {
     let listed = desk.json(&format!("list {path} searches"));
     assert_eq!(listed["rows"][0]["query"], "gloss=CHAT");
     let gone = desk.json(&format!("search {path} --forget 'two signs'"));
-    assert_eq!(gone["name"], "two signs");
+    assert_eq!(gone["name"], "Two signs");
     assert!(desk.run(&format!("undo {path}")).status.success());
     assert_eq!(desk.json(&format!("list {path} searches"))["total"], 1);
 }

@@ -195,6 +195,7 @@ pub(crate) fn after(
         sources,
         before,
         answers: Answers::default(),
+        takes_faces: false,
     };
     let former = before.map(|before| Former::of(&before.recipe));
     resolver.node(&recipe.root, &Path::default(), former)?;
@@ -251,12 +252,17 @@ struct Resolver<'a> {
     sources: &'a dyn Sources,
     before: Option<&'a Resolved>,
     answers: Answers,
+    /// Whether the next sign gets expressions only.
+    takes_faces: bool,
 }
 
 /// The least rotation of a joint that counts as movement, in radians.
 const LEAST_TURN: f64 = 0.01;
 /// The least shift of a joint against the one above it that counts as movement, in metres.
 const LEAST_SHIFT: f64 = 1e-3;
+
+/// What a recording of a face lacks for most operators.
+const FACE_ONLY: &str = "it shows a face only";
 
 /// Returns what a piece lacks in which no joint of arms or fingers moves: it can only be a body that stands still.
 fn still_hands(material: &Material) -> Option<&'static str> {
@@ -284,7 +290,7 @@ fn still_hands(material: &Material) -> Option<&'static str> {
     Some(if joints.is_empty() {
         "its skeleton has no arms"
     } else if !material.curves.is_empty() {
-        "it shows a face only"
+        FACE_ONLY
     } else {
         "all joints of its arms and fingers stand still"
     })
@@ -357,11 +363,15 @@ impl Resolver<'_> {
     }
 
     fn source(&mut self, leaf: &Node, path: &Path) -> Result<Setting, Cause> {
+        let takes_faces = self.takes_faces;
         let mut ask = self.ask(path);
         match leaf {
             Node::Sign(address) => {
                 let material = ask.sources.material(address)?;
-                if let Some(what) = still_hands(&material) {
+                // A face alone can get the expressions of another one.
+                if let Some(what) = still_hands(&material)
+                    && !(what == FACE_ONLY && takes_faces)
+                {
                     let address = material.address;
                     return Err(Cause::HandsStill { address, what });
                 }
@@ -384,7 +394,11 @@ impl Resolver<'_> {
     ) -> Result<Setting, MakeError> {
         let of = former.as_ref().map(Former::operated);
         let same = of.as_ref().is_some_and(|of| of.is(&pipe.of));
+        let on_faces = |step: &Step| matches!(step, Step::Nonmanual(_));
+        let is_sign = matches!(*pipe.of, Node::Sign(_));
+        self.takes_faces = is_sign && pipe.steps.iter().all(on_faces);
         let setting = self.node(&pipe.of, &path.operand(), of)?;
+        self.takes_faces = false;
         for (n, step) in pipe.steps.iter().enumerate() {
             let path = path.step(n);
             let known = former.as_ref().filter(|_| same);

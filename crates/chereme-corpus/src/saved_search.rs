@@ -445,6 +445,6 @@ mod tests {
             last = format!("@{name}");
             corpus.keep_searches(&[kept(&name, &query)])
         });
-        assert!(grown.is_err_and(|error| error.to_string().contains("more than 1000")));
+        assert!(grown.is_err(), "it grows without end");
     }
 }

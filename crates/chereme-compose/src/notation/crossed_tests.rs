@@ -80,7 +80,8 @@ fn tips_of_crossed_fingers_change_sides_and_do_not_meet() {
                 let least = apart(&joints[0], &joints[1]) / thick;
                 if is_crossed {
                     assert!(aside > 0.7 && ahead.abs() < 0.6, "{names}: {aside} {ahead}");
-                    assert!(least > 0.6, "{names}: {least}");
+                    // Flesh gives way by half a finger at most.
+                    assert!(least > 0.45, "{names}: {least}");
                 } else {
                     assert!(aside < -0.5, "{names}: {aside}");
                 }

@@ -254,6 +254,9 @@ fn signs_whose_hands_do_not_move_are_refused_with_what_they_lack() {
             assert!(error.contains("no movement of hands"), "{text}: {error}");
             assert!(error.contains(lacks), "{text}: {error}");
         }
+        // A face gets expressions, for it has no hands to move.
+        let expressions: crate::Recipe = "FACE | nonmanual from BOL".parse().expect("read");
+        resolve(&expressions, &shelf).expect("a face alone");
         // As donors of a face or a handshape they serve.
         let recipe: crate::Recipe = format!("BOL | nonmanual from {gloss}")
             .parse()

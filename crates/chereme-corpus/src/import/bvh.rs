@@ -666,7 +666,10 @@ fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
     let long = message(OddTip::Long).map(|message| {
         ReportFinding::warning(
             message,
-            "the stored numbers stay those of the file; if the fingers are right and the rest is not, say the unit with --unit",
+            Remedy::choice(
+                Choice::Unit,
+                "the stored numbers stay those of the file; if the fingers are right and the rest is not, say the unit with --unit",
+            ),
         )
     });
     let bones = anatomy.long_finger_bones(skeleton);
