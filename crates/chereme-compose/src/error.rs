@@ -303,10 +303,10 @@ pub struct Meant {
 }
 
 impl Meant {
-    pub(crate) fn of(written: &str, right: Option<&String>) -> Option<Self> {
+    pub(crate) fn of(written: &str, right: Option<&str>) -> Option<Self> {
         Some(Self {
             written: written.to_owned(),
-            right: right?.clone(),
+            right: right?.to_owned(),
         })
     }
 }

@@ -382,13 +382,13 @@ pub enum SourceError {
     #[error("{address:?} is {kind}, and {wanted}")]
     OtherKind {
         /// The address as written.
-        address: String,
+        address: Box<str>,
         /// What has this name: `a recording`.
         kind: &'static str,
         /// What the recipe needs there: `notation is wanted`.
         wanted: &'static str,
         /// The address that would do.
-        right: Option<String>,
+        right: Option<Box<str>>,
     },
     /// Several things have this address.
     #[error("{address:?} could be any of {}", candidates.join(", "))]
@@ -474,9 +474,9 @@ impl SourceError {
     #[must_use]
     pub fn meant(&self) -> Option<Meant> {
         match self {
-            Self::Missing { address, nearest } => Meant::of(address, nearest.as_ref()),
-            Self::OtherKind { address, right, .. } => Meant::of(address, right.as_ref()),
-            Self::UnknownValue { text, nearest, .. } => Meant::of(text, nearest.as_ref()),
+            Self::Missing { address, nearest } => Meant::of(address, nearest.as_deref()),
+            Self::OtherKind { address, right, .. } => Meant::of(address, right.as_deref()),
+            Self::UnknownValue { text, nearest, .. } => Meant::of(text, nearest.as_deref()),
             _ => None,
         }
     }

@@ -441,7 +441,7 @@ mod tests {
         let mut last = "gloss=A".to_owned();
         let grown = (0..9).try_for_each(|at| {
             let name = format!("s{at}");
-            let query = vec![last.as_str(); 10].join(" or ");
+            let query = [last.as_str(); 10].join(" or ");
             last = format!("@{name}");
             corpus.keep_searches(&[kept(&name, &query)])
         });

@@ -176,10 +176,10 @@ impl<'a> CorpusSources<'a> {
             sign => ("a sign", self.has(address).then(|| sign.to_string())?),
         };
         Some(SourceError::OtherKind {
-            address: address.to_owned(),
+            address: address.into(),
             kind,
             wanted,
-            right: Some(named).filter(|_| wanted == WANTED_BODY && kind != "a sign"),
+            right: Some(named.into()).filter(|_| wanted == WANTED_BODY && kind != "a sign"),
         })
     }
 
@@ -287,7 +287,7 @@ impl Sources for CorpusSources<'_> {
         match self.stretch(address) {
             Ok(stretch) => match self.load(&stretch) {
                 Err(error) if error.is_lack() => Err(SourceError::OtherKind {
-                    address: address.to_owned(),
+                    address: address.into(),
                     kind: "in a recording without a skeleton",
                     wanted: WANTED_SKELETON,
                     right: None,
@@ -376,7 +376,7 @@ impl Sources for CorpusSources<'_> {
         find()
             .map_err(|error| unreadable(&error))?
             .ok_or_else(|| SourceError::OtherKind {
-                address: signer.unwrap_or_default().to_owned(),
+                address: signer.unwrap_or_default().into(),
                 kind: "a signer without a recording that moves",
                 wanted: WANTED_BODY,
                 right: None,

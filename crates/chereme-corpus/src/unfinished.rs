@@ -175,7 +175,8 @@ mod tests {
             let mut options = File::options();
             let file = options.create(true).truncate(false).write(true);
             let file = file.open(path).expect("made");
-            let then = std::time::SystemTime::now() - Duration::from_secs(age);
+            let made = file.metadata().and_then(|own| own.modified());
+            let then = made.expect("a time") - Duration::from_secs(age);
             file.set_modified(then).expect("set");
         };
         left.iter().chain(&kept).for_each(|name| make(name, 60));

@@ -166,16 +166,21 @@ fn filmed(rate: f64, course: fn(f64) -> f64) -> (Vec<Frame>, Vec<Key>, Vec<[f64;
     (frames, keys, moves)
 }
 
+/// The share of a movement that is done at a share of its time.
+type MovementCourse = fn(f64) -> f64;
+/// The gesture of one part of the hand.
+type GestureOf = fn(&KeyGestures) -> super::session::Gesture;
+
 #[test]
 fn hand_and_fingers_arrive_when_they_do_at_every_rate_and_course() {
-    let courses: [(&str, fn(f64) -> f64); 2] =
+    let courses: [(&str, MovementCourse); 2] =
         [("minimum jerk", minimum_jerk), ("half a sine", half_a_sine)];
     for (name, course) in courses {
         for rate in [25.0, 30.0, 60.0, 120.0] {
             let (frames, keys, moves) = filmed(rate, course);
             let take = Followed::of_seen(&frames, &[], None, rate);
             let (_, shown) = find(&[(&take, &keys)]).expect("keys to learn from");
-            let parts: [(&str, fn(&KeyGestures) -> super::session::Gesture); 2] =
+            let parts: [(&str, GestureOf); 2] =
                 [("hand", |key| key.hand), ("fingers", |key| key.fingers)];
             for (part, of) in parts {
                 if part == "hand" && name != "minimum jerk" {

@@ -55,7 +55,7 @@ struct Order {
 
 enum SnapshotRequest {
     /// Read again after work of this window, and pass on its end once the snapshot shows its result.
-    After(News),
+    After(Box<News>),
     /// Include the tiers of this recording in the snapshots.
     Recording(Option<i64>),
     /// Save a copy there.
@@ -219,9 +219,9 @@ impl Station {
             }
             self.edits.fetch_add(1, Ordering::SeqCst);
             if let Err(SendError(SnapshotRequest::After(ended))) =
-                reader.send(SnapshotRequest::After(ended))
+                reader.send(SnapshotRequest::After(Box::new(ended)))
             {
-                self.say(ended);
+                self.say(*ended);
             }
         }
     }
@@ -291,7 +291,7 @@ impl Station {
             let mut next = wishes.recv_timeout(LOOK);
             while let Ok(wish) = next {
                 match wish {
-                    SnapshotRequest::After(news) => ended.push(news),
+                    SnapshotRequest::After(news) => ended.push(*news),
                     SnapshotRequest::Recording(recording) => reading.recording = recording,
                     SnapshotRequest::Copy(to) => {
                         let saved = reading.corpus.save_copy(&to).map(|()| to);
