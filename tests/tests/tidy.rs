@@ -4,8 +4,8 @@ use std::fs;
 
 use chereme_tests::repository::{self, TextFile};
 
-const LONGEST: usize = 700;
-const GUIDE: usize = 150;
+const LONGEST: usize = 1200;
+const GUIDE: usize = 250;
 
 /// This file writes the words that it looks for.
 const OWN: &str = "tests/tests/tidy.rs";
@@ -71,7 +71,7 @@ fn guides_are_short() {
         .filter(|(_, lines)| *lines > GUIDE)
         .map(|(file, lines)| format!("{} has {lines} lines", file.path))
         .collect();
-    expect_none("guides of more than 150 lines", &faults);
+    expect_none("guides that are too long", &faults);
 }
 
 #[test]

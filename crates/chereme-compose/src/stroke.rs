@@ -52,7 +52,7 @@ impl SignStroke {
 
     /// Returns the share of an operator's effect at a frame: 1 in the stroke, 0 at rest.
     pub(crate) fn effect_share(&self, frame: usize) -> f64 {
-        let way = |from: usize, to: usize| {
+        let eased = |from: usize, to: usize| {
             let w = (from.abs_diff(frame) as f64 / from.abs_diff(to) as f64).clamp(0.0, 1.0);
             w * w * w * (10.0 + w * (6.0 * w - 15.0))
         };
@@ -61,9 +61,9 @@ impl SignStroke {
         } else if !self.moving.contains(&frame) {
             0.0
         } else if frame < self.frames.start {
-            way(self.moving.start, self.frames.start)
+            eased(self.moving.start, self.frames.start)
         } else {
-            way(self.moving.end, self.frames.end)
+            eased(self.moving.end, self.frames.end)
         }
     }
 

@@ -138,9 +138,9 @@ impl Framing {
         let known = arms.iter().flatten().next().is_some();
         let arm = |side: usize| arms[side].map_or(0.0, |arm| arm_length(&poses[0], arm));
         let size = arm(0).max(arm(1)) / 0.53;
-        let way = way(poses, anatomy);
-        let travels = way.is_some_and(|way| way.reach > TRAVELS);
-        let carrier = way.map(|way| (way.joint, way.middle));
+        let travel = find_travel(poses, anatomy);
+        let travels = travel.is_some_and(|travel| travel.reach > TRAVELS);
+        let carrier = travel.map(|travel| (travel.joint, travel.middle));
         for pose in poses {
             let to_own = if turns {
                 facing(std::slice::from_ref(pose), anatomy).transpose()
@@ -413,14 +413,14 @@ fn based(carrier: Option<(usize, Vec3)>, travels: bool, pose: &ModelPose) -> Vec
 
 /// The way of the joint that carries a body.
 #[derive(Clone, Copy)]
-struct Way {
+struct BodyTravel {
     joint: usize,
     middle: Vec3,
     /// The greatest distance from the middle.
     reach: f32,
 }
 
-fn way(poses: &[ModelPose], anatomy: &Anatomy) -> Option<Way> {
+fn find_travel(poses: &[ModelPose], anatomy: &Anatomy) -> Option<BodyTravel> {
     let parts = [Part::Hips, Part::Spine, Part::Chest];
     let joint = parts.iter().find_map(|&part| anatomy.joint(part))?;
     let mut bounds = Bounds::default();
@@ -428,7 +428,7 @@ fn way(poses: &[ModelPose], anatomy: &Anatomy) -> Option<Way> {
         bounds.add(pose.position(joint).as_vec3());
     }
     let (low, high) = bounds.0?;
-    Some(Way {
+    Some(BodyTravel {
         joint,
         middle: (low + high) * 0.5,
         reach: (high - low).length() * 0.5,

@@ -549,10 +549,10 @@ fn place(
             let arms = shift.sides.iter().map(|&side| Group::Arm(side));
             work.changed(arms, operator);
         }
-        let way = directions(frame.to_body(by) * 100.0);
+        let offset = directions(frame.to_body(by) * 100.0);
         moved.push(match apart {
-            true => format!("the {} hand is moved {way}", shift.sides[0].name()),
-            false => format!("moved {way}"),
+            true => format!("the {} hand is moved {offset}", shift.sides[0].name()),
+            false => format!("moved {offset}"),
         });
     }
     let mut did = moved;

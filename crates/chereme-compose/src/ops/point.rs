@@ -132,12 +132,12 @@ pub(crate) fn point(
     let seconds = match settings.via.time {
         Some(time) => time.0,
         None => {
-            let mut way = work.clone();
-            way.sample(&[0.0; REACH_STEPS + 1]);
-            carry(&mut way, &apex, sides, courses, |step| {
+            let mut reaching = work.clone();
+            reaching.sample(&[0.0; REACH_STEPS + 1]);
+            carry(&mut reaching, &apex, sides, courses, |step| {
                 step as f64 / REACH_STEPS as f64
             });
-            let seconds = usual_time(&way, sides, given.reaches)?;
+            let seconds = usual_time(&reaching, sides, given.reaches)?;
             did.push(format!("reaching takes {seconds:.2} s"));
             seconds
         }
@@ -193,11 +193,15 @@ fn carry(
 }
 
 /// Returns the time of a reach in seconds: at the mean speed of captured ones, if they are known, and never so short that
-/// a wrist would be faster than those of signers. `way` goes from rest to the apex in [`REACH_STEPS`] steps.
-fn usual_time(way: &Work, sides: &[Side], reaches: Option<&LearnedReaches>) -> Result<f64, Cause> {
+/// a wrist would be faster than those of signers. `reaching` goes from rest to the apex in [`REACH_STEPS`] steps.
+fn usual_time(
+    reaching: &Work,
+    sides: &[Side],
+    reaches: Option<&LearnedReaches>,
+) -> Result<f64, Cause> {
     let mut seconds = reaches.map_or(REACH, |_| 0.0);
     for &side in sides {
-        let path = wrist_path(way, side)?;
+        let path = wrist_path(reaching, side)?;
         let step = path.windows(2).map(|two| two[0].distance(two[1]));
         let fastest = step.fold(0.0, f64::max) * REACH_STEPS as f64;
         let far = path[REACH_STEPS].distance(path[0]);

@@ -200,7 +200,7 @@ pub(super) fn live_link(text: &str, findings: &mut Findings) -> Result<Channels,
         .iter()
         .flat_map(|at| channels.columns[*at].iter().flatten());
     let most = values.map(|value| value.to_f64().abs()).fold(0.0, f64::max);
-    // Between both nothing tells degrees from radians.
+    // Between both, nothing distinguishes degrees from radians.
     let unit = match most {
         _ if most > HALF_TURN => "deg",
         _ if most > FARTHEST_TURN => "",

@@ -36,7 +36,12 @@ actions! {
         File, Corpus, Runs(|seen| {
             let mend = !seen.snapshot.is_read_only();
             Ok(Job::long(shell::TASK_CHECK, move |corpus, progress| {
-                corpus.check(mend, progress).map(Outcome::Checked)
+                let report = corpus.check(false, progress)?;
+                let mended = match mend && !report.ok {
+                    true => corpus.check(true, progress)?,
+                    false => report,
+                };
+                Ok(Outcome::Checked(mended))
             }))
         }), "none" "none" "none";
     Settings "file.settings" "Settings" | "Réglages"

@@ -237,7 +237,7 @@ fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
         0 => below("t0", "Gloss", 0),
         place => below(&format!("t{place}"), &format!("t{}", place - 1), place),
     });
-    for (name, text, told) in [
+    for (name, text, wanted) in [
         (
             "orphan.eaf",
             with(below("Gone", "Missing", 0)),
@@ -250,8 +250,12 @@ fn annotations_whose_tier_became_a_root_tier_lose_their_parents() {
         ),
     ] {
         let report = import(&mut corpus, &desk.file(name, &text), "{}");
-        let is_told = |it: &ReportFinding| it.message.contains(told);
-        assert!(report.findings.iter().any(is_told), "{:?}", report.findings);
+        let has_text = |it: &ReportFinding| it.message.contains(wanted);
+        assert!(
+            report.findings.iter().any(has_text),
+            "{:?}",
+            report.findings
+        );
         let mut hear = unheard;
         let checked = corpus
             .check(false, &mut Progress::new(&mut hear))
@@ -275,8 +279,8 @@ fn a_value_that_no_person_wrote_is_refused_with_its_place() {
         let report = corpus.import(&[file], &options, &mut Progress::new(&mut hear));
         let report = report.expect("a report").files.remove(0);
         assert_eq!(report.status == FileStatus::Refused, !fits, "{report:?}");
-        let is_told = |it: &ReportFinding| it.message.contains("a value has at most 1048576");
-        assert_eq!(report.findings.iter().any(is_told), !fits);
+        let has_text = |it: &ReportFinding| it.message.contains("a value has at most 1048576");
+        assert_eq!(report.findings.iter().any(has_text), !fits);
     }
 }
 
