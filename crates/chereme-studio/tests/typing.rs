@@ -111,23 +111,3 @@ fn the_end_of_an_annotation_opens_its_field_in_sight() {
     stored(&mut window, before + 2);
     assert_eq!(values(&window, "Gloss"), ["HUIS-2"]);
 }
-
-#[test]
-fn proposals_come_into_sight() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut window = opened(folder.path());
-    window.set_size(eframe::egui::vec2(1280.0, 800.0));
-    click(&mut window, "Tier Gloss");
-    press(&mut window, CTRL | Modifiers::SHIFT | ALT, Key::P);
-    window
-        .get_by_label_contains("strokes: strokes of each wrist")
-        .click();
-    common::until(&mut window, "the strokes", |it| {
-        it.query_by_label_contains("Proposals on separate tiers")
-            .is_some()
-    });
-    window.run_steps(70);
-    let mut tiers = window.query_all_by_label_contains("(proposed)");
-    // The lower edge of the rows.
-    assert!(tiers.any(|it| it.rect().bottom() <= 764.0));
-}
