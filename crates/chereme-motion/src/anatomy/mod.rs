@@ -123,8 +123,6 @@ pub struct Anatomy {
     /// The posture in which the body was measured.
     measured_pose: ModelPose,
     posed: bool,
-    /// The local rotations of the reference posture, if it is not the rest pose.
-    reference: Option<Vec<DQuat>>,
     /// Joints that only end a digit, impossibly far away.
     far_ends: Vec<usize>,
 }
@@ -171,7 +169,6 @@ impl Anatomy {
             elbows: [None, None],
             measured_pose: skeleton.rest_model_pose(),
             posed: false,
-            reference: None,
             far_ends: Vec::new(),
         };
         let is_long = |&joint: &usize| anatomy.odd_tip(skeleton, joint) == Some(OddTip::Long);
@@ -202,8 +199,6 @@ impl Anatomy {
         self.posed = axes.is_some_and(|[_, up, _]| {
             self.has_breadth(model) && !self.arms_stick_out(model, up) && self.can_stand(model, up)
         });
-        let is_rest = *model == skeleton.rest_model_pose();
-        self.reference = (!is_rest).then(|| model.to_local(skeleton).rotations);
         let turned = axes.map(|[left, up, forward]| {
             DQuat::from_mat3(&DMat3::from_cols(left, up, forward)).normalize()
         });

@@ -23,8 +23,9 @@ impl Anatomy {
     #[must_use]
     pub fn t_pose(&self, skeleton: &Skeleton) -> ModelPose {
         let mut pose = skeleton.rest_pose();
-        if let Some(rotations) = &self.reference {
-            pose.rotations.clone_from(rotations);
+        let is_at_rest = self.is_measured_at_rest(skeleton);
+        if !is_at_rest {
+            pose.rotations = self.measured_pose.to_local(skeleton).rotations;
         }
         let mut stance = Stance {
             skeleton,
@@ -32,7 +33,7 @@ impl Anatomy {
             pose,
         };
         let joint = |part: Part| self.joint(part);
-        let can_rest = self.posed && self.reference.is_none();
+        let can_rest = self.posed && is_at_rest;
         // The trunk of a body at rest leans a little; one that lies, or faces another direction, is put upright.
         let trunk = self.body_frame(&stance.model);
         if let Some((hips, upright)) =
@@ -61,10 +62,14 @@ impl Anatomy {
     /// from the reference posture.
     #[must_use]
     pub fn bind_pose(&self, skeleton: &Skeleton) -> ModelPose {
-        match self.reference {
-            Some(_) => self.t_pose(skeleton),
-            None => skeleton.rest_model_pose(),
+        match self.is_measured_at_rest(skeleton) {
+            true => skeleton.rest_model_pose(),
+            false => self.t_pose(skeleton),
         }
+    }
+
+    fn is_measured_at_rest(&self, skeleton: &Skeleton) -> bool {
+        self.measured_pose == skeleton.rest_model_pose()
     }
 
     /// Returns the bones of the T-pose from the hips outwards: two joints, and the direction from one to the other.
