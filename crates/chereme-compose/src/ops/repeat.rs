@@ -220,6 +220,8 @@ pub(crate) fn repeat(
             done.did.extend(kept.iter().map(what));
             let lost = contact::lost(&touched, &next, Carry::Same);
             done.contacts.extend(lost.iter().map(what));
+            let step = format!("{operator}, repetition {}", n + 1);
+            done.warnings.extend(contact::long_repairs(&touched, &step));
         }
         if tempo != 1.0 {
             retime::stretch(&mut next, 1.0 / tempo)?;

@@ -21,6 +21,8 @@ pub(crate) struct Touching {
     pub(crate) kept: Vec<String>,
     /// Those that were lost.
     pub(crate) lost: Vec<String>,
+    /// Those that were kept by moving a wrist far.
+    pub(crate) warnings: Vec<String>,
 }
 
 /// The body that receives movement.
@@ -56,6 +58,7 @@ pub(crate) fn touching(
     Ok(Touching {
         contacts: touched.count(),
         lost: contact::lost(&touched, &out, Carry::Same),
+        warnings: contact::long_repairs(&touched, operator),
         work: out,
         kept,
     })

@@ -32,7 +32,7 @@ pub(crate) fn then(
     operator: &str,
 ) -> Result<join::Done, Cause> {
     let (mut did, mut contacts) = (Vec::new(), Vec::new());
-    let mut warnings = Vec::new();
+    let (mut warnings, mut repairs) = (Vec::new(), Vec::new());
     let mut next = match on_same_body(work, &next) {
         Some(next) => next,
         None => {
@@ -49,6 +49,7 @@ pub(crate) fn then(
             let (before, after) = StepSpeeds::between_frames(&done.work).most_added(&before);
             warnings.extend(speed::check_added(before, after)?);
             done.work
+            repairs = done.warnings;
         }
     };
     retarget::resample(&mut next, work.rate);
@@ -104,7 +105,7 @@ pub(crate) fn then(
         did,
         joins,
         contacts,
-        warnings: warnings.collect(),
+        warnings: repairs.into_iter().chain(warnings).collect(),
     })
 }
 
