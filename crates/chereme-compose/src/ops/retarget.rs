@@ -93,9 +93,15 @@ pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause
         ..work.clone()
     };
     let pairs = pairs(work, skeleton, anatomy);
+    let placed = |part: Part| work.anatomy.joint(next_part(part)?);
     let columns = Columns::of(
         work,
-        pairs.iter().flatten().map(|&(from, _)| from).chain([0]),
+        pairs
+            .iter()
+            .flatten()
+            .flat_map(|&(from, part)| [Some(from), placed(part)])
+            .flatten()
+            .chain([0]),
     );
     let [there, here] =
         [(&work.skeleton, &work.anatomy), (skeleton, anatomy)].map(|(skeleton, anatomy)| Body {
@@ -112,11 +118,20 @@ pub(crate) fn retarget(work: &Work, onto: &TargetBody<'_>) -> Result<Work, Cause
             Some((from, part)) => {
                 let back = there.posture(part).rotation(from).inverse();
                 let onto = even(&there, &here, part) * here.posture(part).rotation(joint);
-                let turned = columns.rotations(from);
-                turned
-                    .iter()
-                    .map(|r| (*r * back * onto).normalize())
-                    .collect()
+                // A file that places the next joint in every frame decides thereby where the bone points.
+                let next = placed(part).filter(|&next| work.channels[next].translations.is_some());
+                let (posture, starts) = (there.posture(part), columns.positions(from));
+                let turned = columns.rotations(from).iter().enumerate();
+                let turned = turned.map(|(frame, turned)| {
+                    let off = next.and_then(|next| {
+                        let bone = posture.position(next) - posture.position(from);
+                        let turned = (*turned * back * bone).try_normalize()?;
+                        let placed = columns.positions(next)[frame] - starts[frame];
+                        Some(DQuat::from_rotation_arc(turned, placed.try_normalize()?))
+                    });
+                    (off.unwrap_or_default() * *turned * back * onto).normalize()
+                });
+                turned.collect()
             }
             None => (0..work.frames).map(|frame| parent(frame) * idle).collect(),
         };
@@ -145,6 +160,19 @@ fn pairs(work: &Work, skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<Option<(usi
     pairs
 }
 
+/// Returns the part in which the bone of a limb's part ends.
+fn next_part(part: Part) -> Option<Part> {
+    match part {
+        Part::Clavicle(side) => Some(Part::UpperArm(side)),
+        Part::UpperArm(side) => Some(Part::Forearm(side)),
+        Part::Forearm(side) => Some(Part::Hand(side)),
+        Part::Thigh(side) => Some(Part::Shin(side)),
+        Part::Shin(side) => Some(Part::Foot(side)),
+        Part::Foot(side) => Some(Part::Toes(side)),
+        _ => None,
+    }
+}
+
 /// The directions of a part in a body's posture, in model space: along its bone, and one across it.
 struct Axes {
     along: DVec3,
@@ -156,7 +184,7 @@ impl Axes {
     fn of(body: &Body<'_>, part: Part) -> Option<Self> {
         let (anatomy, model) = (body.anatomy, body.posture(part));
         let at = |part| anatomy.joint(part).map(|joint| model.position(joint));
-        let bone = |next: Part| (at(next)? - at(part)?).try_normalize();
+        let bone = || (at(next_part(part)?)? - at(part)?).try_normalize();
         let trunk = anatomy.body_frame(model)?;
         let elbow = |side| {
             let upper = anatomy.joint(Part::UpperArm(side))?;
@@ -167,10 +195,10 @@ impl Axes {
             (model.rotation(joint) * last_bone(body.skeleton, anatomy, joint)?).try_normalize()
         };
         let (along, across) = match part {
-            Part::Clavicle(side) => (bone(Part::UpperArm(side))?, Some(trunk.up)),
-            Part::UpperArm(side) => (bone(Part::Forearm(side))?, elbow(side)),
+            Part::Clavicle(_) => (bone()?, Some(trunk.up)),
+            Part::UpperArm(side) => (bone()?, elbow(side)),
             Part::Forearm(side) => {
-                let along = bone(Part::Hand(side))?;
+                let along = bone()?;
                 let upper = (at(part)? - at(Part::UpperArm(side))?).try_normalize();
                 let carried = upper.map(|upper| DQuat::from_rotation_arc(upper, along));
                 (
@@ -182,10 +210,9 @@ impl Axes {
                 let palm = anatomy.palm_normal(side, model);
                 (anatomy.hand_direction(side, model)?, palm)
             }
-            Part::Thigh(side) => (bone(Part::Shin(side))?, Some(trunk.forward)),
-            Part::Shin(side) => (bone(Part::Foot(side))?, Some(trunk.forward)),
-            Part::Foot(side) => {
-                let along = bone(Part::Toes(side)).or_else(tip);
+            Part::Thigh(_) | Part::Shin(_) => (bone()?, Some(trunk.forward)),
+            Part::Foot(_) => {
+                let along = bone().or_else(tip);
                 (along.unwrap_or(trunk.forward), Some(trunk.up))
             }
             Part::Toes(_) => (tip().unwrap_or(trunk.forward), Some(trunk.up)),

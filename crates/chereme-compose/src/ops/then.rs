@@ -22,6 +22,9 @@ use crate::work::{Columns, Group, Work};
 const WINDOW: f64 = 0.3;
 /// The least and the greatest time of a transition in seconds, and a wrist's mean speed in one, in metres per second.
 const TIMES: (f64, f64, f64) = (0.15, 0.6, 1.0);
+/// The mean speed of hips and feet in a transition in metres per second, which at the peak of a sigmoid's course is that
+/// which is not warned of, and the greatest time that they are given for it, in seconds.
+const STANCE_TIME: (f64, f64) = (0.2, 1.0);
 
 /// Appends `next` to `work`; returns a description of the effects and of the join.
 pub(crate) fn then(
@@ -46,10 +49,10 @@ pub(crate) fn then(
             let done = retarget::touching(&next, &onto, operator)?;
             did.extend(done.kept);
             contacts = done.lost;
+            repairs = done.warnings;
             let (before, after) = StepSpeeds::between_frames(&done.work).most_added(&before);
             warnings.extend(speed::check_added(before, after)?);
             done.work
-            repairs = done.warnings;
         }
     };
     retarget::resample(&mut next, work.rate);
@@ -290,7 +293,11 @@ fn face_alike(first: &Work, second: &mut Work) {
 /// Finds for each hand the frames to leave one sign and enter the next with the least cost.
 fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam {
     let wrists = Side::BOTH.map(|side| first.anatomy.arm(side).map(|arm| arm.hand));
-    let joints = || wrists.iter().flatten().copied();
+    let stance = Side::BOTH.map(Part::Foot).into_iter().chain([Part::Hips]);
+    let stance: Vec<usize> = stance
+        .filter_map(|part| first.anatomy.joint(part))
+        .collect();
+    let joints = || wrists.iter().flatten().chain(&stance).copied();
     let (a, b) = (Columns::of(first, joints()), Columns::of(second, joints()));
     let window = |work: &Work| {
         let frames = (WINDOW / work.rate.frame_time()).round() as usize;
@@ -327,9 +334,6 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam
         }
         longest = longest.max(pa[cut.leave].distance(pb[cut.enter]));
     }
-    let (least, most, speed) = TIMES;
-    let seconds = time.map_or((longest / speed).clamp(least, most), |time| time.0);
-    let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
     // The hand whose cuts leave out the fewest frames sets the pace: its transition takes exactly the wanted time, and
     // trunk, head and legs go with it.
     let left_out = |cut: &Cut| last - cut.leave + cut.enter;
@@ -347,6 +351,14 @@ fn seam(first: &Work, second: &Work, time: Option<Seconds>, ends: &Ends) -> Seam
             cut
         }
     });
+    let shift =
+        |&joint: &usize| a.positions(joint)[body.leave].distance(b.positions(joint)[body.enter]);
+    let farthest = stance.iter().map(shift).fold(0.0, f64::max);
+    let (least, most, speed) = TIMES;
+    let usual = (longest / speed).clamp(least, most);
+    let usual = usual.max((farthest / STANCE_TIME.0).min(STANCE_TIME.1));
+    let seconds = time.map_or(usual, |time| time.0);
+    let gap = (seconds / first.rate.frame_time()).round().max(1.0) as usize;
     let spare = left_out(&body);
     let offset = (first.frames + gap)
         .saturating_sub(spare)
