@@ -97,9 +97,10 @@ fn table(capture: &Path, folder: &Path) -> Result<String> {
 const JOINS_HEAD: &str = "
 ## Joined pieces, and movement on another body
 
-Every recording of the starter corpus is joined to every other one, within a dialect and between the dialect and the file as
-it is. *Refused* counts the joins that would add too much speed. *Hips* is the largest distance from the straight line between the two pieces, *floor* that of the lower foot from its
-height in the first piece. Then movement of each dialect is put on the bodies of all: *turned* is the largest angle between a
+Every recording of the starter corpus is joined to the next one and the one before, and in the dialect `plain` to every other
+one: within a dialect, and between the dialect and the file as it is. *Refused* counts the joins that would add too much
+speed. *Hips* is the largest distance from the straight line between the two pieces, *floor* that of the lower foot from
+its height in the first piece. Then movement of each dialect is put on the bodies of all: *turned* is the largest angle between a
 bone of foot or thumb and its counterpart.
 
 | dialect | refused | hips | floor | turned | bone |
