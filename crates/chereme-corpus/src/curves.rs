@@ -141,10 +141,7 @@ pub(crate) fn write_table(
     out: &mut dyn Write,
 ) -> Result<()> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = match stretch.token {
-        Some(_) => track.frames_in(stretch.span),
-        None => 0..track.frames(),
-    };
+    let frames = track.frames_of(stretch);
     let curves = of_track(connection, &track, frames.clone())?;
     if curves.is_empty() {
         let name = &stretch.recording.name;

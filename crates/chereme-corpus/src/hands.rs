@@ -3,7 +3,9 @@
 use std::cell::RefCell;
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::ops::Range;
 
+use chereme_motion::ends::OddFrames;
 use chereme_motion::lapses::has_bending_joints;
 use chereme_motion::{Anatomy, Clip, HandCorrection, HandRange, Part, Side};
 use rusqlite::Connection;
@@ -69,27 +71,7 @@ pub(crate) fn usable_take(
 ) -> Result<UsableTake> {
     let mut kept = kept.borrow_mut();
     kept.renew(connection)?;
-    if let Some(known) = kept.takes.get(&row.id) {
-        return Ok(known.clone());
-    }
-    let track = MotionTrack::of(connection, row.id)?;
-    let mut take = UsableTake {
-        frames: 0..track.frames(),
-        bends: row.origin == Origin::Made || track.frames() < 2,
-    };
-    if row.origin != Origin::Made {
-        let anatomy = track.anatomy(connection)?;
-        take.frames = track.usable_frames(connection, &anatomy)?;
-        let mut start = take.frames.start;
-        while start < take.frames.end && !take.bends {
-            let end = (start + BLOCK_FRAMES).min(take.frames.end);
-            let clip = track.clip(connection, start..end, &ChannelGroup::ALL)?;
-            take.bends = has_bending_joints(&clip, &anatomy);
-            start = end;
-        }
-    }
-    kept.takes.insert(row.id, take.clone());
-    Ok(take)
+    kept.usable_take(connection, row)
 }
 
 /// Returns the hands of a recording whose fingers all stay at rest in every frame: nobody captured them, as in a body that
@@ -149,7 +131,8 @@ pub(crate) fn corrections(
     let own = MotionTrack::of(connection, row.id)?;
     let mut ranges = [HandRange::default(), HandRange::default()];
     let anatomy = own.anatomy(connection)?;
-    observe(connection, &own, &anatomy, &mut ranges)?;
+    let sound = kept.usable_take(connection, row)?.frames;
+    observe(connection, (&own, &anatomy), &sound, &mut ranges)?;
     let mut alike = Vec::new();
     if row.signer_id.is_some() {
         for other in recordings::recordings(connection)? {
@@ -158,7 +141,7 @@ pub(crate) fn corrections(
                 && other.id != row.id
                 && let Some(track) = recordings::body_track(connection, other.id)?
             {
-                alike.push((track.skeleton_id != own.row.skeleton_id, other.id));
+                alike.push((track.skeleton_id != own.row.skeleton_id, other));
             }
         }
     }
@@ -170,12 +153,13 @@ pub(crate) fn corrections(
         if takes == TAKES {
             break;
         }
-        let track = MotionTrack::of(connection, other)?;
+        let track = MotionTrack::of(connection, other.id)?;
         if differs && !equal(&bones, kept.bones(connection, &track)?) {
             continue;
         }
         let anatomy = track.anatomy(connection)?;
-        observe(connection, &track, &anatomy, &mut ranges)?;
+        let sound = kept.usable_take(connection, &other)?.frames;
+        observe(connection, (&track, &anatomy), &sound, &mut ranges)?;
         takes += 1;
     }
     let found = ranges.map(|range| range.correction());
@@ -194,6 +178,31 @@ impl Kept {
             };
         }
         Ok(())
+    }
+
+    fn usable_take(&mut self, connection: &Connection, row: &RecordingRow) -> Result<UsableTake> {
+        if let Some(known) = self.takes.get(&row.id) {
+            return Ok(known.clone());
+        }
+        let track = MotionTrack::of(connection, row.id)?;
+        let mut take = UsableTake {
+            frames: 0..track.frames(),
+            bends: row.origin == Origin::Made || track.frames() < 2,
+        };
+        if row.origin != Origin::Made {
+            let anatomy = track.anatomy(connection)?;
+            let odd = track.odd_frames(connection, &anatomy)?;
+            take.frames = OddFrames::remaining(track.frames(), &odd);
+            let mut start = take.frames.start;
+            while start < take.frames.end && !take.bends {
+                let end = (start + BLOCK_FRAMES).min(take.frames.end);
+                let clip = track.clip(connection, start..end, &ChannelGroup::ALL)?;
+                take.bends = has_bending_joints(&clip, &anatomy);
+                start = end;
+            }
+        }
+        self.takes.insert(row.id, take.clone());
+        Ok(take)
     }
 
     /// Returns the bones of a track's hands.
@@ -224,17 +233,16 @@ fn equal(a: &Bones, b: &Bones) -> bool {
     !a.is_empty() && a.keys().eq(b.keys()) && a.values().zip(b.values()).all(near)
 }
 
-/// Adds a take to the ranges, without odd frames at its ends.
+/// Adds the sound frames of a take to the ranges.
 fn observe(
     connection: &Connection,
-    track: &MotionTrack,
-    anatomy: &Anatomy,
+    (track, anatomy): (&MotionTrack, &Anatomy),
+    sound: &Range<usize>,
     ranges: &mut [HandRange; 2],
 ) -> Result<()> {
     if Side::BOTH.iter().all(|&side| !anatomy.has_fingers(side)) {
         return Ok(());
     }
-    let sound = track.usable_frames(connection, anatomy)?;
     let step = (track.rate.per_second() / RATE).round().max(1.0) as usize;
     let parts = sound.len().div_ceil(BLOCK_FRAMES).min(BLOCKS);
     for part in 0..parts {

@@ -17,6 +17,7 @@ use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
 use crate::codec;
+use crate::address::Stretch;
 use crate::db::damaged;
 use crate::db::motion::{self, BlockRow};
 use crate::db::recipes;
@@ -316,6 +317,14 @@ impl MotionTrack {
     pub(crate) fn frames_in(&self, span: Span) -> Range<usize> {
         let frames = self.rate.frames_in(span.shifted(-self.row.offset_us));
         frames.start.min(self.frames())..frames.end.min(self.frames())
+    /// Returns the frames of a stretch: those of a token, or all of a recording.
+    pub(crate) fn frames_of(&self, stretch: &Stretch) -> Range<usize> {
+        match stretch.token {
+            Some(_) => self.frames_in(stretch.span),
+            None => 0..self.frames(),
+        }
+    }
+
     }
 
     /// Calls `take` with the columns of complete blocks that contain any of `frames`, group by group.
@@ -510,16 +519,6 @@ impl MotionTrack {
         frames.clamp(1, BLOCK_FRAMES).min(self.frames().max(1))
     }
 
-    /// Returns the frames of the recording without odd ones at its ends.
-    pub(crate) fn usable_frames(
-        &self,
-        connection: &Connection,
-        anatomy: &Anatomy,
-    ) -> Result<Range<usize>> {
-        let odd = self.odd_frames(connection, anatomy)?;
-        Ok(OddFrames::remaining(self.frames(), &odd))
-    }
-
     /// Returns the odd frames at both ends of the recording.
     pub(crate) fn odd_frames(
         &self,
@@ -527,23 +526,25 @@ impl MotionTrack {
         anatomy: &Anatomy,
     ) -> Result<Vec<OddFrames>> {
         let (all, part) = (self.frames(), 4 * self.head());
-        let look = |frames: Range<usize>| -> Result<Vec<OddFrames>> {
-            let from = frames.start;
-            let clip = self.clip(connection, frames, &ChannelGroup::ALL)?;
-            let mut odd = Ends::of(&clip, anatomy).odd;
-            for odd in &mut odd {
-                odd.frames = odd.frames.start + from..odd.frames.end + from;
-            }
-            Ok(odd)
-        };
+        let read = |frames: Range<usize>| self.clip(connection, frames, &ChannelGroup::ALL);
         if all <= 2 * part {
-            return look(0..all);
+            return Ok(Ends::of(&read(0..all)?, anatomy).odd);
         }
-        let mut odd = look(0..part)?;
-        odd.retain(|odd| odd.frames.end < part);
-        let tail = look(all - part..all)?;
-        odd.extend(tail.into_iter().filter(|odd| odd.frames.start > all - part));
-        Ok(odd)
+        let hips = anatomy.joint(Part::Hips).unwrap_or(0);
+        let above = |joint: &usize| self.hierarchy.joints[*joint].parent;
+        let carriers: Vec<usize> = std::iter::successors(Some(hips), above).collect();
+        let mut groups = ChannelGroup::ALL.to_vec();
+        groups.retain(|group| {
+            let joints = self.groups.get(group).into_iter().flatten();
+            joints.into_iter().any(|joint| carriers.contains(joint))
+        });
+        let mut path = Vec::with_capacity(all);
+        for start in (0..all).step_by(BLOCK_FRAMES) {
+            let frames = start..(start + BLOCK_FRAMES).min(all);
+            let clip = self.clip(connection, frames, &groups)?;
+            path.extend(clip.path(hips));
+        }
+        Ok(Ends::of_long_take(&path, part, anatomy, read)?.odd)
     }
 }
 

@@ -35,9 +35,21 @@ impl Corpus {
     /// # Errors
     /// As [`movement`](Self::movement).
     pub fn usable_movement(&self, address: &Address) -> Result<Moving> {
-        let stretch = crate::address::stretch(self.store.read(), address)?;
-        let span = self.usable_span(&stretch)?;
+        let span = self.usable_part(address, None)?;
         self.movement_in(address, Some(span), &ChannelGroup::ALL)
+    }
+
+    /// Returns the usable part of the movement at an address, or of a span of it: without frames that are left out of
+    /// measures and pictures. All of it if nothing else is there.
+    ///
+    /// # Errors
+    /// Fails if nothing has that address, if several things have it, or if blocks are damaged.
+    pub fn usable_part(&self, address: &Address, span: Option<Span>) -> Result<Span> {
+        let mut stretch = crate::address::stretch(self.store.read(), address)?;
+        if let Some(span) = span {
+            stretch.span = stretch.span.intersection(span).unwrap_or_default();
+        }
+        self.usable_span(&stretch)
     }
 
     /// Returns the span of a stretch's usable frames; all of it if its recording has no movement.

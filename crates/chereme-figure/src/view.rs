@@ -363,8 +363,10 @@ pub fn stroke(clip: &Clip, anatomy: &Anatomy) -> usize {
     let Some(last) = clip.frames().checked_sub(1) else {
         return 0;
     };
-    let (sound, up) = signing(clip, anatomy);
-    let middle = (sound.start + sound.len() / 2).min(last);
+    let active = signed(clip, anatomy);
+    let middle = (active.start + active.len() / 2).min(last);
+    let mut up = evenly(active);
+    up.retain(|&frame| has_hand_up(&clip.model_pose(frame), anatomy));
     up.get(up.len() / 2).copied().unwrap_or(middle)
 }
 
@@ -374,14 +376,11 @@ pub fn signed(clip: &Clip, anatomy: &Anatomy) -> Range<usize> {
     activity(clip, anatomy).unwrap_or_else(|| Ends::of(clip, anatomy).sound)
 }
 
-/// Returns the range of frames that are not odd and, of up to [`LOOKS`] of them, those in which a hand is up.
-fn signing(clip: &Clip, anatomy: &Anatomy) -> (Range<usize>, Vec<usize>) {
-    let sound = Ends::of(clip, anatomy).sound;
-    let count = sound.len().min(LOOKS);
-    let frames = (0..count).map(|i| sound.start + (sound.len() - 1) * i / (count - 1).max(1));
-    let up = frames.filter(|&frame| has_hand_up(&clip.model_pose(frame), anatomy));
-    let up = up.collect();
-    (sound, up)
+/// Returns up to [`LOOKS`] of some frames, evenly spaced.
+fn evenly(frames: Range<usize>) -> Vec<usize> {
+    let (last, count) = (frames.len().saturating_sub(1), frames.len().min(LOOKS));
+    let spaced = (0..count).map(|i| frames.start + last * i / (count - 1).max(1));
+    spaced.collect()
 }
 
 /// Returns whether a hand is above the lower fifth of the trunk, so that it signs and does not rest. `false` if the
@@ -438,9 +437,7 @@ fn find_travel(poses: &[ModelPose], anatomy: &Anatomy) -> Option<BodyTravel> {
 /// Returns postures of a clip, evenly spaced if there are many, without odd first and last frames.
 fn looks(clip: &Clip, anatomy: &Anatomy) -> Option<Vec<ModelPose>> {
     clip.frames().checked_sub(1)?;
-    let sound = Ends::of(clip, anatomy).sound;
-    let (last, count) = (sound.len() - 1, sound.len().min(LOOKS));
-    let frames = (0..count).map(|i| sound.start + last * i / (count - 1).max(1));
+    let frames = evenly(Ends::of(clip, anatomy).sound).into_iter();
     Some(frames.map(|frame| clip.model_pose(frame)).collect())
 }
 

@@ -120,25 +120,51 @@ impl Ends {
     /// Examines `clip`; `anatomy` belongs to its skeleton. Where the body jumps, the longest piece remains.
     #[must_use]
     pub fn of(clip: &Clip, anatomy: &Anatomy) -> Self {
-        let all = clip.frames();
-        let mut ends = Self {
-            sound: 0..all,
-            odd: Vec::new(),
+        let looks = Looks {
+            clip,
+            anatomy,
+            first: 0,
         };
-        if all < 4 {
-            return ends;
-        }
-        let looks = Looks { clip, anatomy };
-        ends.keep_longest_piece(&looks);
-        if ends.sound.len() < 4 {
-            return ends;
-        }
-        let window = (WINDOW * clip.rate().per_second()).round() as usize;
-        let window = (ends.sound.len() / 4).min(window).max(1);
-        ends.head(&looks, window);
-        ends.tail(&looks, window);
+        let mut ends = Self::between_jumps(&looks.body_path(), &looks);
+        ends.head(&looks);
+        ends.tail(&looks);
         ends.odd.sort_by_key(|odd| odd.frames.start);
         ends
+    }
+
+    /// Examines a take that is too long for one clip: the `path` of its body over all frames, in metres, and the first and
+    /// last `part` frames of the longest piece, which `read` gives.
+    ///
+    /// # Errors
+    /// Those of `read`.
+    pub fn of_long_take<E>(
+        path: &[DVec3],
+        part: usize,
+        anatomy: &Anatomy,
+        mut read: impl FnMut(Range<usize>) -> Result<Clip, E>,
+    ) -> Result<Self, E> {
+        let mut look =
+            |frames: Range<usize>, ends: Option<Self>, examine: fn(&mut Self, &Looks<'_>)| {
+                let looks = Looks {
+                    clip: &read(frames.clone())?,
+                    anatomy,
+                    first: frames.start,
+                };
+                let mut ends = ends.unwrap_or_else(|| Self::between_jumps(path, &looks));
+                examine(&mut ends, &looks);
+                Ok(ends)
+            };
+        let ends = look(0..part.min(path.len()), None, |_, _| {})?;
+        let Range { start, end } = ends.sound;
+        let ends = look(start..(start + part).min(end), Some(ends), Self::head)?;
+        let Range { start, end } = ends.sound;
+        let mut ends = look(
+            end.saturating_sub(part).max(start)..end,
+            Some(ends),
+            Self::tail,
+        )?;
+        ends.odd.sort_by_key(|odd| odd.frames.start);
+        Ok(ends)
     }
 
     /// Returns whether no frame is odd.
@@ -147,26 +173,34 @@ impl Ends {
         self.odd.is_empty()
     }
 
-    /// Keeps the longest piece between jumps of the body.
-    fn keep_longest_piece(&mut self, looks: &Looks<'_>) {
-        let jumps = looks.body_jumps();
+    /// Keeps the longest piece between jumps of the body along its path; `looks` has the first frames.
+    fn between_jumps(path: &[DVec3], looks: &Looks<'_>) -> Self {
+        let mut ends = Self {
+            sound: 0..path.len(),
+            odd: Vec::new(),
+        };
+        if path.len() < 4 {
+            return ends;
+        }
+        let jumps = body_jumps(path, looks.clip.rate().per_second());
         let starts = std::iter::once(0).chain(jumps.iter().map(|jump| jump.steps.end));
-        let ends = jumps.iter().map(|jump| jump.steps.start + 1);
-        let pieces = starts.zip(ends.chain([self.sound.end]));
+        let stops = jumps.iter().map(|jump| jump.steps.start + 1);
+        let pieces = starts.zip(stops.chain([path.len()]));
         let longest = pieces.enumerate().max_by_key(|(nth, (start, end))| {
             // Of equal pieces the first.
             (end.saturating_sub(*start), usize::MAX - nth)
         });
         let Some((nth, (start, end))) = longest else {
-            return;
+            return ends;
         };
         if let Some(before) = nth.checked_sub(1) {
-            let jump = &jumps[before];
-            self.leave_out(0..start, jump.what_after(looks.bound(0..start)));
+            let bound = looks.bound(0..start);
+            ends.leave_out(0..start, jumps[before].what_after(bound));
         }
         if let Some(after) = jumps.get(nth) {
-            self.leave_out(end..self.sound.end, after.what);
+            ends.leave_out(end..path.len(), after.what);
         }
+        ends
     }
 
     /// Leaves frames at one end of the remaining ones out.
@@ -182,7 +216,11 @@ impl Ends {
         self.odd.push(OddFrames { frames, what });
     }
 
-    fn head(&mut self, looks: &Looks<'_>, window: usize) {
+    /// Leaves odd frames at the start of the remaining ones out; `looks` has them.
+    fn head(&mut self, looks: &Looks<'_>) {
+        let Some(window) = looks.window(&self.sound) else {
+            return;
+        };
         let first = self.sound.start;
         let bound = first + looks.bound(self.sound.clone());
         let jump = looks.jumps(first..first + window).pop();
@@ -191,16 +229,15 @@ impl Ends {
         } else if bound > first && bound - first <= window && looks.unbinds(bound) {
             self.leave_out(first..bound, Oddity::Bind);
         }
-        let sound = self.sound.clone();
-        let tee = sound
-            .clone()
-            .take_while(|&frame| looks.at(frame).tee)
-            .count();
-        if tee > 0 && tee < sound.len() / 2 {
-            self.leave_out(sound.start..sound.start + tee, Oddity::Tee);
+        let seen = looks.seen(&self.sound);
+        let tee = seen.clone().take_while(|&frame| looks.at(frame).tee);
+        let tee = tee.count();
+        if tee > 0 && tee < self.sound.len() / 2 {
+            self.leave_out(seen.start..seen.start + tee, Oddity::Tee);
         }
-        let start = self.sound.start;
-        let snap = (start..self.sound.end - 1).take_while(|&frame| looks.is_snap(frame));
+        let seen = looks.seen(&self.sound);
+        let start = seen.start;
+        let snap = (start..seen.end - 1).take_while(|&frame| looks.is_snap(frame));
         let snap = start + snap.take(window).count();
         if let Some(before) = self.odd.iter_mut().find(|odd| odd.frames.end == start) {
             before.frames.end = snap;
@@ -208,25 +245,28 @@ impl Ends {
         }
     }
 
-    fn tail(&mut self, looks: &Looks<'_>, window: usize) {
+    /// Leaves odd frames at the end of the remaining ones out; `looks` has them.
+    fn tail(&mut self, looks: &Looks<'_>) {
+        let Some(window) = looks.window(&self.sound) else {
+            return;
+        };
         let last = self.sound.end;
         let first = (last - 1).saturating_sub(window).max(self.sound.start);
         if let Some(Jump { steps, what }) = looks.jumps(first..last - 1).into_iter().next() {
             self.leave_out(steps.start + 1..last, what);
         }
-        let sound = self.sound.clone();
-        let tee = sound.clone().rev().take_while(|&frame| looks.at(frame).tee);
+        let seen = looks.seen(&self.sound);
+        let tee = seen.clone().rev().take_while(|&frame| looks.at(frame).tee);
         let tee = tee.count();
-        if tee > 0 && tee < sound.len() / 2 {
-            self.leave_out(sound.end - tee..sound.end, Oddity::Tee);
+        if tee > 0 && tee < self.sound.len() / 2 {
+            self.leave_out(seen.end - tee..seen.end, Oddity::Tee);
         }
-        let end = self.sound.end;
-        let steps = (self.sound.start..end - 1).rev();
-        let snap = end
-            - steps
-                .take_while(|&frame| looks.is_snap(frame))
-                .take(window)
-                .count();
+        let seen = looks.seen(&self.sound);
+        let end = seen.end;
+        let snap = (seen.start..end - 1)
+            .rev()
+            .take_while(|&frame| looks.is_snap(frame));
+        let snap = end - snap.take(window).count();
         if let Some(next) = self.odd.iter_mut().find(|odd| odd.frames.start == end) {
             next.frames.start = snap;
             self.sound.end = snap;
@@ -242,7 +282,11 @@ impl Ends {
 #[must_use]
 pub fn activity(clip: &Clip, anatomy: &Anatomy) -> Option<Range<usize>> {
     let ends = Ends::of(clip, anatomy);
-    let looks = Looks { clip, anatomy };
+    let looks = Looks {
+        clip,
+        anatomy,
+        first: 0,
+    };
     let poses: Vec<Look> = (0..clip.frames()).map(|frame| looks.at(frame)).collect();
     let step = ((clip.rate().per_second() * 0.05).round() as usize).max(1);
     let speed = |side: usize, frame: usize| {
@@ -358,9 +402,11 @@ impl Look {
     }
 }
 
+/// Frames of a take: those of a clip, and the number of the first.
 struct Looks<'a> {
     clip: &'a Clip,
     anatomy: &'a Anatomy,
+    first: usize,
 }
 
 /// A jump over successive steps: from the frame `steps.start` to the frame `steps.end`.
@@ -381,7 +427,7 @@ impl Jump {
 
 impl Looks<'_> {
     fn at(&self, frame: usize) -> Look {
-        let model = self.clip.model_pose(frame);
+        let model = self.clip.model_pose(frame - self.first);
         let anatomy = self.anatomy;
         let trunk = anatomy.body_frame(&model);
         let hips = anatomy.joint(Part::Hips).map(|hips| model.position(hips));
@@ -475,31 +521,23 @@ impl Looks<'_> {
         jumps
     }
 
-    /// Returns the jumps of the body in the whole clip, without those from which it returns.
-    fn body_jumps(&self) -> Vec<Jump> {
-        let rate = self.clip.rate().per_second();
-        let path = self.clip.path(self.anatomy.joint(Part::Hips).unwrap_or(0));
-        let speed = |n: usize| path[n].distance(path[n + 1]) * rate;
-        let longest = ((AWAY.0 * rate).ceil() as usize).max(1);
-        let (mut jumps, mut n, last) = (Vec::new(), 0, path.len() - 1);
-        while n < last {
-            let run = (n..last).take_while(|&n| speed(n) > SNAP * JUMP.1);
-            let run = n..n + run.count();
-            n = run.end + 1;
-            let far = path[run.start].distance(path[run.end]);
-            if far <= JUMP.0 || !run.clone().any(|n| speed(n) > JUMP.1) {
-                continue;
-            }
-            let mut later = run.end + 1..(run.end + 1 + longest).min(path.len());
-            match later.find(|&at| path[at].distance(path[run.start]) < AWAY.1 * far) {
-                Some(back) => n = back,
-                None => jumps.push(Jump {
-                    steps: run,
-                    what: Oddity::Jump(far),
-                }),
-            }
-        }
-        jumps
+    /// Returns the path of the body over all frames.
+    fn body_path(&self) -> Vec<DVec3> {
+        let hips = self.anatomy.joint(Part::Hips);
+        self.clip.path(hips.unwrap_or(0))
+    }
+
+    /// Returns those of some frames that the clip has.
+    fn seen(&self, frames: &Range<usize>) -> Range<usize> {
+        frames.start.max(self.first)..frames.end.min(self.first + self.clip.frames())
+    }
+
+    /// Returns the number of frames at each end in which turns and jumps of hands are searched; `None` if there are too
+    /// few.
+    fn window(&self, sound: &Range<usize>) -> Option<usize> {
+        let frames = (WINDOW * self.clip.rate().per_second()).round() as usize;
+        let few = self.seen(sound).len() / 4;
+        (few > 0).then(|| few.min(frames).max(1))
     }
 
     /// Returns how many of the first frames have all joints except the root at rest.
@@ -507,11 +545,11 @@ impl Looks<'_> {
         let skeleton = self.clip.skeleton();
         let at_rest = |frame: &usize| {
             (1..skeleton.len()).all(|joint| {
-                let turned = self.clip.channel(joint).rotations[*frame];
+                let turned = self.clip.channel(joint).rotations[*frame - self.first];
                 turned.angle_between(skeleton.joint(joint).rest) < SAME
             })
         };
-        frames.take_while(at_rest).count()
+        self.seen(&frames).take_while(at_rest).count()
     }
 
     /// Returns whether a hand jumps from the last frame of a bind pose to the next.
@@ -520,6 +558,31 @@ impl Looks<'_> {
         let distances = (0..2).filter_map(|side| Some(a.wrists[side]?.distance(b.wrists[side]?)));
         distances.fold(0.0, f64::max) > UNBIND
     }
+}
+
+/// Returns the jumps of a body along its path, without those from which it returns.
+fn body_jumps(path: &[DVec3], rate: f64) -> Vec<Jump> {
+    let speed = |n: usize| path[n].distance(path[n + 1]) * rate;
+    let longest = ((AWAY.0 * rate).ceil() as usize).max(1);
+    let (mut jumps, mut n, last) = (Vec::new(), 0, path.len() - 1);
+    while n < last {
+        let run = (n..last).take_while(|&n| speed(n) > SNAP * JUMP.1);
+        let run = n..n + run.count();
+        n = run.end + 1;
+        let far = path[run.start].distance(path[run.end]);
+        if far <= JUMP.0 || !run.clone().any(|n| speed(n) > JUMP.1) {
+            continue;
+        }
+        let mut later = run.end + 1..(run.end + 1 + longest).min(path.len());
+        match later.find(|&at| path[at].distance(path[run.start]) < AWAY.1 * far) {
+            Some(back) => n = back,
+            None => jumps.push(Jump {
+                steps: run,
+                what: Oddity::Jump(far),
+            }),
+        }
+    }
+    jumps
 }
 
 #[cfg(test)]

@@ -39,10 +39,7 @@ pub(crate) fn write(
     progress: &mut Progress<'_>,
 ) -> Result<usize> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = match stretch.token {
-        Some(_) => track.frames_in(stretch.span),
-        None => 0..track.frames(),
-    };
+    let frames = track.frames_of(stretch);
     if !track.is_of_bvh() {
         return write_converted(connection, &track, frames, out);
     }

@@ -27,10 +27,7 @@ pub(super) fn glb(
     out: &mut dyn Write,
 ) -> Result<usize> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = match stretch.token {
-        Some(_) => track.frames_in(stretch.span),
-        None => 0..track.frames(),
-    };
+    let frames = track.frames_of(stretch);
     let clip = track.clip(connection, frames.clone(), &ChannelGroup::ALL)?;
     let span = on_the_clock(&track, &clip, &frames);
     let about = about(connection, stretch, span)?;
@@ -83,10 +80,7 @@ pub(super) fn vrma(
     notes_of_file: &mut Vec<String>,
 ) -> Result<()> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = match stretch.token {
-        Some(_) => track.frames_in(stretch.span),
-        None => 0..track.frames(),
-    };
+    let frames = track.frames_of(stretch);
     if frames.is_empty() {
         let name = &stretch.recording.name;
         return Err(

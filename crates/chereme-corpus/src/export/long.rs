@@ -2,6 +2,7 @@
 
 use std::io::Write;
 
+#[cfg(not(feature = "parquet"))]
 use chereme_sign::Remedy;
 use rusqlite::Connection;
 

@@ -122,6 +122,9 @@ fn odd_first_and_last_frames_are_found_with_their_numbers() {
     for (want, change, sound) in cases {
         let (clip, anatomy) = clip(change);
         let ends = Ends::of(&clip, &anatomy);
+        let read = |frames| Ok::<_, std::convert::Infallible>(clip.slice(frames));
+        let Ok(in_parts) = Ends::of_long_take(&clip.path(0), 60, &anatomy, read);
+        assert_eq!(in_parts, ends, "{want}");
         let texts: Vec<String> = ends.odd.iter().map(ToString::to_string).collect();
         assert_eq!(ends.sound, sound, "{want}: {texts:?}");
         let text = texts.join("; ");

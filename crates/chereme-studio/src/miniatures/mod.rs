@@ -16,6 +16,7 @@ mod data;
 mod draw;
 mod ui;
 
+pub(crate) use data::shown;
 pub(crate) use ui::{empty, still};
 
 use std::cell::RefCell;

@@ -188,7 +188,7 @@ impl Figures {
             Motion::Made(_) => return,
             Motion::Span(..) if own.asked.len() >= ASKED => return,
             Motion::Span(recording, span) => {
-                let job = movement::stretch(*recording, data::shown(*span));
+                let job = movement::stretch(*recording, *span);
                 own.asked.insert(out.work(job), source.clone());
                 Film::Loading
             }

@@ -8,6 +8,7 @@ use chereme_motion::Span;
 use eframe::egui::{Color32, ColorImage};
 
 use super::{About, Job, Lane, Outcome};
+use crate::miniatures::shown;
 
 /// The room for the picture of a film in a list, in pixels.
 const STILL: [usize; 2] = [288, 288];
@@ -49,10 +50,12 @@ pub(crate) fn points(recording: i64, span: Span) -> Job {
     })
 }
 
-/// Loads the movement of a span of a recording, or a picture of its film if nothing moves; if both are missing, that
-/// is not an error.
+/// Loads the beginning of the usable movement of a span of a recording, or a picture of its film if nothing moves; if
+/// both are missing, that is not an error.
 pub(crate) fn stretch(recording: i64, span: Span) -> Job {
     Job::new(About::LITTLE, move |corpus, _| {
+        let address = Address::Recording(Name::Number(recording));
+        let span = shown(corpus.usable_part(&address, Some(span)).unwrap_or(span));
         let moving = movement_in(corpus, recording, span).ok();
         match moving.filter(|it| it.clip.frames() > 0) {
             Some(moving) => Ok(Outcome::Stretch(Some(Arc::new(moving)))),

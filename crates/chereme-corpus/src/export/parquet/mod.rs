@@ -5,8 +5,10 @@ mod file;
 #[cfg(test)]
 mod tests;
 
+use std::cell::RefCell;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::Write;
+use std::ops::Range;
 
 use ::parquet::data_type::ByteArray;
 use chereme_sign::Component;
@@ -22,6 +24,7 @@ use crate::db::recordings;
 use crate::db::signs;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
+use crate::hands::usable_take;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 use file::{Cells, Column, File, Table};
@@ -50,7 +53,8 @@ fn about(long: Long) -> String {
         Long::Frames => (
             "frames",
             "a joint of a frame a row; t_s is seconds of the recording; tx ty tz (metres) and qx qy qz qw (unit quaternion) \
-             are relative to the parent joint, wx wy wz is the place in the room in metres, Y up, the signer facing +Z",
+             are relative to the parent joint, wx wy wz is the place in the room in metres, Y up, the signer facing +Z; usable is \
+             false in bind poses, T-poses and beyond jumps of the body, which measures and pictures leave out",
         ),
     };
     let program = format!("Chereme {}", env!("CARGO_PKG_VERSION"));
@@ -69,7 +73,8 @@ pub(super) fn tokens(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut text = Vec::new();
-    csv::tokens(connection, tokens, b',', &mut text, notes, progress)?;
+    let form = csv::TableForm::new(b',');
+    csv::tokens(connection, tokens, form, &mut text, notes, progress)?;
     let fault = |error: ::csv::Error| Error::wrong(error.to_string());
     let mut reader = ::csv::Reader::from_reader(text.as_slice());
     let titles: Vec<String> = reader
@@ -326,9 +331,11 @@ pub(super) fn frames(
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut file = File::new(&frames_table(), &about(Long::Frames), out)?;
+    let takes = RefCell::default();
     for stretch in stretches {
         if recordings::body_track(connection, stretch.recording.id)?.is_some() {
-            movement(connection, stretch, &mut file, progress)?;
+            let usable = usable_take(connection, &takes, &stretch.recording)?.frames;
+            movement(connection, (stretch, &usable), &mut file, progress)?;
         }
     }
     file.finish()
@@ -345,20 +352,18 @@ fn frames_table() -> Table {
         Column::new("joint", Cells::Text(Vec::new())),
     ];
     table.extend(NUMBERS.map(|name| Column::new(name, Cells::Float(Vec::new()))));
+    table.push(Column::new("usable", Cells::Flag(Vec::new())));
     table
 }
 
 fn movement(
     connection: &Connection,
-    stretch: &Stretch,
+    (stretch, usable): (&Stretch, &Range<usize>),
     file: &mut File<'_>,
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let track = MotionTrack::of(connection, stretch.recording.id)?;
-    let frames = match stretch.token {
-        Some(_) => track.frames_in(stretch.span),
-        None => 0..track.frames(),
-    };
+    let frames = track.frames_of(stretch);
     let joints = track.hierarchy.joints.len().max(1);
     let at_once = (GROUP / joints).max(1);
     let recording = ByteArray::from(stretch.recording.name.as_str());
@@ -394,14 +399,19 @@ fn movement(
                 own.push(Some(name.clone()));
             }
         }
+        let flags = rows
+            .iter()
+            .map(|row: &Option<i64>| row.map(|frame| usable.contains(&(frame as usize))));
+        let flags = Cells::Flag(flags.collect());
         let mut table = frames_table();
         table[0].cells = Cells::Text(vec![Some(recording.clone()); rows.len()]);
         table[1].cells = Cells::Integer(vec![token; rows.len()]);
         table[2].cells = Cells::Integer(rows);
         table[3].cells = Cells::Double(times);
         table[4].cells = Cells::Text(own);
-        for (column, values) in table[5..].iter_mut().zip(numbers) {
-            column.cells = Cells::Float(values);
+        let numbers = numbers.into_iter().map(Cells::Float);
+        for (column, cells) in table[5..].iter_mut().zip(numbers.chain([flags])) {
+            column.cells = cells;
         }
         file.group(&table)?;
         progress.report(Step {

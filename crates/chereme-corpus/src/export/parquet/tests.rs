@@ -182,6 +182,24 @@ fn frames_are_in_metres_below_the_parent_and_in_the_room() {
 }
 
 #[test]
+fn frames_beyond_a_jump_of_the_body_are_not_usable() {
+    let (head, _) = BVH.split_once("Frames:").expect("frames");
+    let frames = (0..20).map(|frame| {
+        let x = if frame < 5 { 6.0 } else { 0.0 };
+        format!("{x} 1 0 0 0 0 0 {frame} 0\n")
+    });
+    let frames: String = frames.collect();
+    let text = format!("{head}Frames: 20\nFrame Time: 0.04\n{frames}");
+    let desk = Desk::new(&[("take.bvh", &text)]);
+    let rows = desk.rows(&ExportWhat::All, "all.frames.parquet");
+    assert_eq!(rows.len(), 40);
+    for row in &rows {
+        let usable = number(row, "frame") >= 5.0;
+        assert_eq!(*cell(row, "usable"), Field::Bool(usable));
+    }
+}
+
+#[test]
 fn the_same_corpus_gives_the_same_bytes() {
     let desk = Desk::new(&[("film.eaf", EAF), ("take.bvh", BVH)]);
     for name in [
