@@ -1,5 +1,6 @@
 //! The movement of a recording: stored by channel group and block, so that parts of it can be read.
 
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::Arc;
@@ -16,8 +17,8 @@ use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::{Deserialize, Serialize};
 
-use crate::codec;
 use crate::address::Stretch;
+use crate::codec;
 use crate::db::damaged;
 use crate::db::motion::{self, BlockRow};
 use crate::db::recipes;
@@ -203,6 +204,8 @@ pub(crate) struct MotionTrack {
     groups: BTreeMap<ChannelGroup, Vec<usize>>,
     /// The layout of its numbers and its skeleton, if it did not come from a BVH file.
     exact: Option<(Layout, Arc<Skeleton>)>,
+    /// Finger bones that are impossibly long, with their usual lengths in metres.
+    long_bones: OnceCell<Vec<(usize, f64)>>,
 }
 
 /// Returns the error for a recording without movement.
@@ -274,6 +277,7 @@ impl MotionTrack {
             groups,
             exact,
             row,
+            long_bones: OnceCell::new(),
         })
     }
 
@@ -313,10 +317,6 @@ impl MotionTrack {
         joints.iter().flat_map(own).collect()
     }
 
-    /// Returns the frames that start within `span`.
-    pub(crate) fn frames_in(&self, span: Span) -> Range<usize> {
-        let frames = self.rate.frames_in(span.shifted(-self.row.offset_us));
-        frames.start.min(self.frames())..frames.end.min(self.frames())
     /// Returns the frames of a stretch: those of a token, or all of a recording.
     pub(crate) fn frames_of(&self, stretch: &Stretch) -> Range<usize> {
         match stretch.token {
@@ -325,6 +325,10 @@ impl MotionTrack {
         }
     }
 
+    /// Returns the frames that start within `span`.
+    pub(crate) fn frames_in(&self, span: Span) -> Range<usize> {
+        let frames = self.rate.frames_in(span.shifted(-self.row.offset_us));
+        frames.start.min(self.frames())..frames.end.min(self.frames())
     }
 
     /// Calls `take` with the columns of complete blocks that contain any of `frames`, group by group.
@@ -362,7 +366,7 @@ impl MotionTrack {
     }
 
     /// Returns the movement of `frames` in metres and model space; joints of groups that are not requested stay at
-    /// rest.
+    /// rest. Finger bones that are impossibly long have their usual length.
     pub(crate) fn clip(
         &self,
         connection: &Connection,
@@ -370,7 +374,13 @@ impl MotionTrack {
         groups: &[ChannelGroup],
     ) -> Result<Clip> {
         let clip = self.raw(connection, frames, groups)?;
-        Ok(self.convention.clip(&clip))
+        let clip = self.convention.clip(&clip);
+        let long_bones = self.long_bones.get_or_init(|| {
+            let roles = self.roles().unwrap_or_default();
+            let anatomy = Anatomy::with_roles(clip.skeleton(), &roles);
+            anatomy.map_or_else(|_| Vec::new(), |it| it.long_finger_bones(clip.skeleton()))
+        });
+        Ok(draw_in(clip, long_bones))
     }
 
     /// Returns the movement of `frames` in the file's unit and axes.
@@ -571,6 +581,25 @@ fn scale_root(clip: Clip, scale: f64) -> Clip {
         *at *= scale;
     }
     Clip::new(skeleton, rate, channels).unwrap_or(clip)
+}
+
+/// Returns the clip with bones of other lengths: joints, and the lengths in metres of the bones that end in them.
+fn draw_in(clip: Clip, bones: &[(usize, f64)]) -> Clip {
+    if bones.is_empty() {
+        return clip;
+    }
+    let mut joints = clip.skeleton().joints().to_vec();
+    let mut channels = clip.channels().to_vec();
+    for &(joint, length) in bones {
+        let share = length / joints[joint].offset.length();
+        joints[joint].offset *= share;
+        for place in channels[joint].translations.iter_mut().flatten() {
+            *place *= share;
+        }
+    }
+    let drawn = Skeleton::new(joints).ok();
+    let drawn = drawn.and_then(|it| Clip::new(Arc::new(it), clip.rate(), channels).ok());
+    drawn.unwrap_or(clip)
 }
 
 /// Returns the columns of a file for those joints.

@@ -108,4 +108,4 @@ message-findings-at-on-overlaps-others-in-textgrid = { $text } at { $time } on {
 message-findings-copy-part-corpus-chereme-in-folder = it is a copy of a part of corpus.chereme, in the folder of an export
 message-findings-open-corpus-chereme-folder-merge-into = open the corpus.chereme of that folder, or merge it into yours: `chereme merge CORPUS OTHER`
 message-findings-these-finger-bones-over-twice-as = these finger bones are over twice as long as those of the other hand and of the other fingers: { $names }
-message-findings-they-drawn-where-file-has-them = they are drawn where the file has them: mend the skeleton in the program that wrote it, and import the file again
+message-findings-they-drawn-measured-at-usual-length = they are drawn and measured at the usual length, and the stored numbers stay those of the file: mend the skeleton in the program that wrote it, and import the file again

@@ -108,4 +108,4 @@ message-findings-at-on-overlaps-others-in-textgrid = { $text } à { $time } sur 
 message-findings-copy-part-corpus-chereme-in-folder = c’est la copie d’une partie de corpus.chereme, dans le dossier d’une exportation
 message-findings-open-corpus-chereme-folder-merge-into = ouvrez le corpus.chereme de ce dossier, ou réunissez-le avec le vôtre : `chereme merge CORPUS AUTRE`
 message-findings-these-finger-bones-over-twice-as = ces os des doigts sont plus de deux fois plus longs que ceux de l’autre main et des autres doigts : { $names }
-message-findings-they-drawn-where-file-has-them = ils sont dessinés là où le fichier les place : corrigez le squelette dans le programme qui l’a écrit, et importez de nouveau le fichier
+message-findings-they-drawn-measured-at-usual-length = ils sont dessinés et mesurés à la longueur habituelle, et les nombres enregistrés restent ceux du fichier : corrigez le squelette dans le programme qui l’a écrit, et importez de nouveau le fichier

@@ -675,7 +675,7 @@ fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
     let bones = anatomy.long_finger_bones(skeleton);
     let bones: Vec<&str> = bones
         .iter()
-        .map(|&it| skeleton.joint(it).name.as_str())
+        .map(|&(it, _)| skeleton.joint(it).name.as_str())
         .collect();
     let bones = (!bones.is_empty()).then(|| {
         ReportFinding::warning(
@@ -683,7 +683,7 @@ fn odd_tips(skeleton: &Skeleton, anatomy: &Anatomy) -> Vec<ReportFinding> {
                 "these finger bones are over twice as long as those of the other hand and of the other fingers: {}",
                 bones.join(", ")
             ),
-            "they are drawn where the file has them: mend the skeleton in the program that wrote it, and import the file again",
+            "they are drawn and measured at the usual length, and the stored numbers stay those of the file: mend the skeleton in the program that wrote it, and import the file again",
         )
     });
     notes.chain(long).chain(bones).collect()

@@ -143,9 +143,9 @@ impl Anatomy {
 
 impl Anatomy {
     /// Returns the joints of thumbs and fingers whose bone from the joint before is over twice as long as that of the other
-    /// hand, and as the median of the other fingers.
+    /// hand, and as the median of the other fingers; each with the longer one of these, in the unit of the skeleton.
     #[must_use]
-    pub fn long_finger_bones(&self, skeleton: &Skeleton) -> Vec<usize> {
+    pub fn long_finger_bones(&self, skeleton: &Skeleton) -> Vec<(usize, f64)> {
         let length = |part| Some(skeleton.joint(self.joint(part)?).offset.length());
         let usual = |part: Part| {
             let (other, mut alike) = match part {
@@ -161,14 +161,12 @@ impl Anatomy {
             let median = alike.get(alike.len() / 2).copied();
             length(other).into_iter().chain(median).reduce(f64::max)
         };
-        let is_long = |&(part, joint, _): &(Part, usize, _)| {
+        let long = self.found().filter_map(|(part, joint, _)| {
             let own = skeleton.joint(joint).offset.length();
-            usual(part).is_some_and(|usual| usual > 0.0 && own > LONG * usual)
-        };
-        self.found()
-            .filter(is_long)
-            .map(|(_, joint, _)| joint)
-            .collect()
+            let usual = usual(part).filter(|usual| *usual > 0.0 && own > LONG * usual);
+            Some((joint, usual?))
+        });
+        long.collect()
     }
 }
 
@@ -197,10 +195,16 @@ mod tests {
             let mut joints = body(PLAIN).joints().to_vec();
             let joint = joints.iter().position(|it| it.name == part.to_string());
             let joint = joint.expect("a joint");
+            let own = joints[joint].offset.length();
             joints[joint].offset *= by;
             let (skeleton, anatomy) = known(joints);
+            let found = anatomy.long_finger_bones(&skeleton);
+            let named: Vec<usize> = found.iter().map(|(joint, _)| *joint).collect();
             let want = if is_long { vec![joint] } else { Vec::new() };
-            assert_eq!(anatomy.long_finger_bones(&skeleton), want, "{part} {by}");
+            assert_eq!(named, want, "{part} {by}");
+            for (_, usual) in found {
+                assert!((usual / own - 1.0).abs() < 0.3, "{part}: {usual} for {own}");
+            }
         }
     }
 

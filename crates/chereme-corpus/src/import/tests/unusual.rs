@@ -383,6 +383,118 @@ fn frames_that_are_left_out_are_neither_transcribed_nor_played() {
     }
 }
 
+#[test]
+fn a_leap_in_the_middle_of_a_long_take_cuts_its_usable_frames() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    // The take is played ten times over; the body leaps away in the middle of the third time.
+    let sound = changed_capture("chat", &[], |_, number| number.to_owned());
+    let leaping = changed_capture("chat", &["Hips"], |frame, number| match frame >= 100 {
+        true => (number.parse::<f64>().expect("a number") + 500.0).to_string(),
+        false => number.to_owned(),
+    });
+    let away = changed_capture("chat", &["Hips"], |_, number| {
+        (number.parse::<f64>().expect("a number") + 500.0).to_string()
+    });
+    let frames = frame_count(&sound);
+    let (header, _) = sound.split_once("Frame Time:").expect("frames");
+    let header = header.replace(
+        &format!("Frames: {frames}"),
+        &format!("Frames: {}", 10 * frames),
+    );
+    let moving = |text: &str| {
+        let (_, frames) = text.split_once("Frame Time:").expect("frames");
+        let (time, frames) = frames.split_once('\n').expect("a time");
+        (time.to_owned(), frames.to_owned())
+    };
+    let (time, whole) = moving(&sound);
+    let parts = [
+        whole.repeat(2),
+        moving(&leaping).1,
+        moving(&away).1.repeat(7),
+    ];
+    let long = format!("{header}Frame Time:{time}\n{}", parts.concat());
+    let report = take(&mut corpus, &[desk.file("long.bvh", &long)]);
+    let found = findings(&report.files[0], "no part of the movement");
+    let cut = 2 * frames + 100;
+    assert!(
+        found[0]
+            .message
+            .contains(&format!("frames 0 to {}", cut - 1)),
+        "{found:?}"
+    );
+    let address = "recording:1".parse::<crate::Address>().expect("an address");
+    let used = corpus.usable_movement(&address).expect("movement");
+    assert_eq!(used.clip.frames(), 10 * frames - cut);
+    let early = chereme_motion::Span::between(
+        chereme_motion::Instant::ZERO,
+        used.clip.rate().instant(cut + 5),
+    );
+    let part = corpus.usable_part(&address, Some(early)).expect("a span");
+    assert_eq!(used.clip.rate().frames_in(part), cut..cut + 5);
+}
+
+#[test]
+fn finger_bones_over_twice_as_long_as_usual_are_drawn_and_measured_at_the_usual_length() {
+    let desk = Desk::new();
+    let mut corpus = desk.corpus("c.chereme");
+    let sound = changed_capture("chat", &[], |_, number| number.to_owned());
+    let mut is_next = false;
+    let lines = sound.lines().map(|line| {
+        let words: Vec<&str> = line.split_whitespace().collect();
+        match words.as_slice() {
+            ["JOINT", name] => is_next = *name == "RightHandRing2",
+            ["OFFSET", numbers @ ..] if std::mem::take(&mut is_next) => {
+                let longer = numbers.iter().map(|number| {
+                    let number: f64 = number.parse().expect("a number");
+                    (8.0 * number).to_string()
+                });
+                return format!("OFFSET {}\n", longer.collect::<Vec<_>>().join(" "));
+            }
+            _ => {}
+        }
+        format!("{line}\n")
+    });
+    let long = lines.collect::<String>();
+    let files = [desk.file("long.bvh", &long), desk.file("sound.bvh", &sound)];
+    let report = take(&mut corpus, &files);
+    let found = findings(
+        &report.files[0],
+        "these finger bones are over twice as long",
+    );
+    assert!(found[0].message.ends_with("RightHandRing2"), "{found:?}");
+    let [long_clip, sound_clip] = ["long", "sound"].map(|name| {
+        let address = format!("recording:{name}").parse::<crate::Address>();
+        let moving = corpus.movement(&address.expect("an address"));
+        moving.expect("movement").clip
+    });
+    for (joint, of_long) in long_clip.skeleton().joints().iter().enumerate() {
+        let own = sound_clip.skeleton().joint(joint).offset;
+        let off = of_long.offset.distance(own) / own.length().max(0.01);
+        assert!(off < 0.3, "{}: {} for {own}", of_long.name, of_long.offset);
+    }
+    // The file comes back with its own numbers.
+    let back = desk.folder.path().join("back.bvh");
+    let mut hear = unheard;
+    let what = crate::ExportWhat::Address("recording:long".parse().expect("an address"));
+    corpus
+        .export(
+            &what,
+            &back,
+            &crate::ExportOptions::default(),
+            &mut Progress::new(&mut hear),
+        )
+        .expect("exported");
+    let back = fs::read_to_string(&back).expect("read");
+    let offsets = |text: &str| {
+        let words = text.split_whitespace().map(str::to_owned);
+        words
+            .take_while(|word| word != "MOTION")
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(offsets(&back), offsets(&long));
+}
+
 /// Returns the number of frames of a BVH file.
 fn frame_count(text: &str) -> usize {
     let count = text
