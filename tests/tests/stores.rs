@@ -169,6 +169,53 @@ fn curves_stored_with_movement_become_tracks_with_their_history() {
     assert!(corpus.undo().is_ok() && corpus.undo().is_err());
 }
 
+/// Up to version 11, a value of a table had no phase beside a final one. The corpus is of that version; its rows and its
+/// history get that form.
+#[test]
+fn values_of_tables_become_initial_beside_final_ones_with_their_history() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("old.chereme");
+    let packed = fs::read(repository::root().join("tests/stores/0011.chereme.zst"));
+    let bytes = zstd::decode_all(packed.expect("read").as_slice()).expect("unpacked");
+    fs::write(&path, bytes).expect("written");
+    let old = Connection::open(&path).expect("opened");
+    let data = |sql: &str| old.query_row(sql, [], |row| row.get::<_, Vec<u8>>(0));
+    let lines = data("SELECT data FROM changeset WHERE operation_id = 1").expect("an import");
+    let lines = zstd::decode_all(lines.as_slice()).expect("unpacked");
+    let lines = String::from_utf8(lines).expect("text");
+    let (begun, phaseless) = ("\"phase\":\"initial\"", "\"phase\":null");
+    assert_eq!(lines.matches(begun).count(), 1);
+    let lines = zstd::encode_all(lines.replace(begun, phaseless).as_bytes(), 3).expect("packed");
+    let sql = "UPDATE changeset SET data = ?1 WHERE operation_id = 1";
+    assert_eq!(old.execute(sql, [lines]).ok(), Some(1));
+    let sql = "UPDATE token_value SET phase = NULL WHERE phase = 'initial'";
+    assert_eq!(old.execute(sql, []).ok(), Some(1));
+    drop(old);
+    let mut corpus = Corpus::open(&path, "reader").expect("opened");
+    let totals = |corpus: &mut Corpus| {
+        [
+            "placement=neutral > head",
+            "final.placement=neutral",
+            "initial.placement=neutral",
+        ]
+        .map(|query| {
+            let answer = corpus.search(query, &SearchOptions::default());
+            answer.expect(query).total
+        })
+    };
+    assert_eq!(totals(&mut corpus), [1, 0, 1]);
+    let check = corpus.check(false, &mut Progress::new(&mut unheard));
+    assert_eq!(check.expect("checked").findings().next(), None);
+    let mut undone = 0;
+    while corpus.undo().is_ok() {
+        undone += 1;
+    }
+    for _ in 0..undone {
+        corpus.redo().expect("done again");
+    }
+    assert_eq!(totals(&mut corpus), [1, 0, 1]);
+}
+
 /// Returns every row of tiers and annotations as text, and the number of references to rows that do not exist.
 fn tiers_and_annotations(path: &Path) -> (Vec<String>, i64) {
     let connection = Connection::open(path).expect("opened");

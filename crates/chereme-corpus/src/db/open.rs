@@ -429,6 +429,9 @@ fn take_steps(
         transaction.execute_batch(step)?;
         upgrade::after_step(&transaction)?;
     }
+    if version < upgrade::PHASED_SINCE {
+        upgrade::begin_before_final(&transaction)?;
+    }
     upgrade::rewrite_json_rules(&transaction)?;
     roles::add_missing(&transaction)?;
     fill(&transaction)?;

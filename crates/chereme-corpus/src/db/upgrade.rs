@@ -48,6 +48,59 @@ pub(super) fn rewrite_json_rules(connection: &Connection) -> Result<()> {
     Ok(rewritten?)
 }
 
+/// The first version whose imports make a value of a table the initial one beside a final one.
+pub(super) const PHASED_SINCE: i32 = 12;
+
+/// Gives values without a phase in rows of imported tables the phase that imports give them since
+/// [`PHASED_SINCE`], also in the history.
+pub(super) fn begin_before_final(connection: &Connection) -> Result<()> {
+    let sql = "SELECT own.id, own.token_id FROM token_value own JOIN token ON token.id = own.token_id
+         WHERE own.phase IS NULL AND own.annotation_id IS NULL AND token.origin = 'lexicon'
+             AND instr(token.source, '\"cells\":')
+             AND (SELECT max(other.phase = 'final') AND NOT max(other.phase = 'initial')
+                  FROM token_value other WHERE other.token_id = own.token_id AND other.hand IS own.hand
+                      AND other.component = own.component AND other.feature IS own.feature)";
+    let begun = connection
+        .prepare(sql)?
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?)))?
+        .collect::<rusqlite::Result<BTreeMap<i64, i64>>>()?;
+    if begun.is_empty() {
+        return Ok(());
+    }
+    for id in begun.keys() {
+        connection.execute(
+            "UPDATE token_value SET phase = 'initial' WHERE id = ?1",
+            [id],
+        )?;
+    }
+    let begin = |image: &mut Value| {
+        let number = |name: &str| image[name].as_i64().unwrap_or_default();
+        let is_begun = begun.get(&number("id")) == Some(&number("token_id"));
+        if is_begun && image["phase"].is_null() {
+            image["phase"] = json!("initial");
+        }
+    };
+    for (operation, part) in history::parts(connection)? {
+        let text = history::read_part(connection, operation, part)?;
+        let lines = text.lines().map(|line| {
+            let phaseless = line.starts_with("[\"token_value\"") && line.contains("\"phase\":null");
+            match phaseless.then(|| Change::read(line)).flatten() {
+                Some(mut change) => {
+                    begin(&mut change.before);
+                    begin(&mut change.after);
+                    change.write()
+                }
+                None => format!("{line}\n"),
+            }
+        });
+        let lines: String = lines.collect();
+        if lines != text {
+            history::replace_part(connection, operation, part, &lines, 0)?;
+        }
+    }
+    Ok(())
+}
+
 /// Converts scalar curves to tracks. Up to version 4 they were rows next to a skeleton's track; now they are a track of
 /// their own on the same frames. Changesets refer to rows by id, so the same mapping of ids serves the rows and the
 /// history.
