@@ -197,7 +197,7 @@ fn scene(
     progress: &mut Progress<'_>,
     read: impl FnOnce(&[u8]) -> std::result::Result<(Scene, Vec<Finding>), String>,
 ) -> Result<FileReport> {
-    let known = job.unchanged();
+    let known = job.imported_before();
     if let Some(report) = &known
         && !job.options.reads_movement()
     {
@@ -424,7 +424,7 @@ pub(super) fn import_tracks(
     progress: &mut Progress<'_>,
     read: impl FnOnce(&[u8]) -> std::result::Result<(Tracks, Vec<Finding>), String>,
 ) -> Result<FileReport> {
-    if let Some(report) = job.unchanged() {
+    if let Some(report) = job.imported_before() {
         return with_kept_form(job, report);
     }
     let bytes = job.bytes()?;

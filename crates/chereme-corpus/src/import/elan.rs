@@ -153,7 +153,7 @@ pub(super) fn import_template(
         ));
     }
     if given.is_empty() {
-        if job.unchanged().is_some() {
+        if job.imported_before().is_some() {
             return Ok(FileReport::unchanged(job.path, None));
         }
         let none =

@@ -31,8 +31,7 @@ const SHOWN_NAMES: usize = 8;
 
 pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<FileReport> {
     let source = Source::of(job);
-    // A table that is again what it was before its newest version is a new version.
-    let known = job.unchanged().filter(|_| source.is_newest);
+    let known = job.unchanged();
     if let Some(report) = &known
         && job.options.mapping.entries().next().is_none()
     {
@@ -136,8 +135,6 @@ struct Source {
     newest: Option<i64>,
     /// The file of the same bytes.
     same_bytes: Option<i64>,
-    /// Whether no other bytes were imported from the path of this import since.
-    is_newest: bool,
 }
 
 impl Source {
@@ -152,9 +149,7 @@ impl Source {
         let place = same.and_then(|row| row.path.as_ref());
         let place = place.unwrap_or(&job.place).clone();
         let newest = job.places.at(&place, job.kind).or(same);
-        let here_now = job.places.at(&job.place, job.kind);
         Self {
-            is_newest: here_now.is_none_or(|row| row.hash == job.hash),
             newest: newest.map(|row| row.id),
             same_bytes: same.map(|row| row.id),
             place,

@@ -181,8 +181,17 @@ impl Job<'_> {
         })
     }
 
-    /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path.
+    /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path, and no
+    /// other bytes from this path since: new versions of a file take the place of earlier ones.
     fn unchanged(&mut self) -> Option<FileReport> {
+        let newest = self.places.at(&self.place, self.kind);
+        let replaced = newest.is_some_and(|row| row.hash != self.hash);
+        (!replaced).then(|| self.imported_before()).flatten()
+    }
+
+    /// Returns a report that nothing changed, if a file with the same bytes was imported before, from any path; what it
+    /// brought stays beside what was imported from its path since, as movement does.
+    fn imported_before(&mut self) -> Option<FileReport> {
         let known = self
             .places
             .hashed(&self.hash)

@@ -71,7 +71,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
         None => Vec::new(),
     };
     if files.is_empty() {
-        if let Some(report) = job.unchanged() {
+        if let Some(report) = job.imported_before() {
             return captured::with_kept_form(job, report);
         }
         let bytes = job.bytes()?;
@@ -94,7 +94,7 @@ pub(super) fn import(job: &mut Job<'_>, progress: &mut Progress<'_>) -> Result<F
             }
         }
         job.hash = hex(&digest.finalize());
-        if let Some(report) = job.unchanged() {
+        if let Some(report) = job.imported_before() {
             return captured::with_kept_form(job, report);
         }
     }

@@ -427,6 +427,59 @@ fn a_mapping_changes_the_columns_of_an_imported_table() {
     assert_eq!(tokens.expect("listed").total, 2);
 }
 
+/// Each reader whose newest file takes the place of earlier ones, with two versions of a file.
+#[test]
+fn a_file_that_is_again_its_earlier_version_is_a_new_version() {
+    let sigml = |shape: &str| {
+        format!(
+            "<sigml><hamgestural_sign gloss=\"TWO\"><sign_manual><handconfig handshape=\"{shape}\"/>\
+             <handconfig extfidir=\"u\"/><handconfig palmor=\"u\"/></sign_manual></hamgestural_sign></sigml>"
+        )
+    };
+    let shapes = |name: &str| {
+        format!(
+            "{{\"id\":\"own\",\"component\":\"configuration\",\"version\":1,\"names\":{{\"en\":\"{name}\"}},\
+             \"values\":[{{\"id\":\"B\"}}]}}"
+        )
+    };
+    let words = |word: &str| {
+        format!(
+            "<CV_RESOURCE><LANGUAGE LANG_ID=\"und\" LANG_LABEL=\"undetermined\"/><CONTROLLED_VOCABULARY CV_ID=\"v\">\
+             <CV_ENTRY_ML CVE_ID=\"c1\"><CVE_VALUE LANG_REF=\"und\">{word}</CVE_VALUE></CV_ENTRY_ML>\
+             </CONTROLLED_VOCABULARY></CV_RESOURCE>"
+        )
+    };
+    let hns = |shape: &str| format!("TWO\tham{shape} hamextfingeru hampalmd\n");
+    for (name, [one, two]) in [
+        (
+            "a.csv",
+            ["flat", "fist"].map(|it| format!("gloss,handshape\nTWO,{it}\n")),
+        ),
+        ("a.sigml", ["flat", "fist"].map(sigml)),
+        ("a.hns", ["flathand", "fist"].map(hns)),
+        ("a.json", ["Mine", "Ours"].map(shapes)),
+        ("a.ecv", ["B", "S"].map(words)),
+    ] {
+        let desk = Desk::new();
+        let mut corpus = desk.corpus("c.chereme");
+        let mut status = |text: &str| import(&mut corpus, &desk.file(name, text), "{}").status;
+        let first = status(&one);
+        assert_eq!(first, FileStatus::Imported, "{name}");
+        assert_ne!(status(&two), FileStatus::Unchanged, "{name}");
+        assert_ne!(status(&one), FileStatus::Unchanged, "{name}");
+        assert_eq!(status(&one), FileStatus::Unchanged, "{name}");
+        let shown = |corpus: &mut Corpus, query: &str| {
+            let answer = corpus.search(query, &SearchOptions::default());
+            answer.map_or(0, |answer| answer.total)
+        };
+        if ["a.csv", "a.sigml", "a.hns"].contains(&name) {
+            let shapes = ["flat", "fist"].map(|it| format!("configuration={it}"));
+            let found = shapes.map(|query| shown(&mut corpus, &query));
+            assert_eq!(found, [1, 0], "{name}");
+        }
+    }
+}
+
 #[test]
 fn one_unreadable_file_does_not_block_the_others() {
     let desk = Desk::new();
