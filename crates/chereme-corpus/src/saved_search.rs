@@ -437,14 +437,23 @@ mod tests {
             "placement=chin or placement=cheek",
             "nothing was saved"
         );
-        // Each uses the one before ten times.
-        let mut last = "gloss=A".to_owned();
-        let grown = (0..9).try_for_each(|at| {
-            let name = format!("s{at}");
+        // Each uses the one before ten times: 10, 110 and 1,110 in all.
+        corpus.keep_searches(&[kept("s", "gloss=A")]).expect("kept");
+        let mut last = "@s".to_owned();
+        for refused in [false, false, true] {
             let query = [last.as_str(); 10].join(" or ");
-            last = format!("@{name}");
-            corpus.keep_searches(&[kept(&name, &query)])
-        });
-        assert!(grown.is_err(), "it grows without end");
+            last.push('x');
+            let done = corpus.keep_searches(&[kept(&last, &query)]);
+            let message = done
+                .err()
+                .map(|error| error.to_string())
+                .unwrap_or_default();
+            assert_eq!(
+                message.contains("more than 1000 saved searches"),
+                refused,
+                "{message}"
+            );
+            assert_eq!(message.is_empty(), !refused, "{message}");
+        }
     }
 }
