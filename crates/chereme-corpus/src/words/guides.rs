@@ -58,6 +58,8 @@ mod tests {
         );
         for line in [
             "  right.configuration=U placement=chin    U à la main droite, près du menton",
+            "  placement=*                             a une valeur principale ; les parties ne comptent pas",
+            "  placement=unset   =n/a   =unclear       sa valeur principale manque : trois sortes",
             "  gloss~ESCARGO   gloss~ESCRGO~2          à une faute près, ou deux",
             "  overlaps  not-overlaps  inside  not-inside  overlaps-begin  overlaps-end",
         ] {

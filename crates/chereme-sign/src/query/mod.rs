@@ -118,8 +118,10 @@ Values
   configuration=B*                        * for any characters of value or name;
                                           case counts only after a double sign
   configuration=[index middle -thumb]     features, and one that is absent
-  placement=*                             has a value
-  placement=unset   =n/a   =unclear       the three kinds of missing values
+  placement=*                             has a main value; parts do not count
+  movement.direction=*                    this part of it has a value
+  placement=unset   =n/a   =unclear       its main value is missing: three kinds
+  movement=none                           coded as none, which is a value
 
 Texts: gloss, translation, comment, text (all three)
   slow animal "slow animal"               words anywhere; a phrase

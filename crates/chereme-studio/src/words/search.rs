@@ -72,6 +72,7 @@ texts! {
     EXACTLY: "is exactly", "est exactement";
     NOT_AT_ALL: "is not, or uncoded", "n’est pas, ou non codé";
     HAS: "is coded", "est codé";
+    MAIN_VALUE: "a main value, not only parts", "une valeur principale, pas seulement des parties";
     UNSET: "is not coded", "n’est pas codé";
     NOT_APPLICABLE: "does not apply", "ne s’applique pas";
     UNCLEAR: "is unclear", "est incertain";

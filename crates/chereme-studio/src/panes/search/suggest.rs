@@ -7,7 +7,7 @@ use chereme_sign::{Component, Field};
 
 use crate::model::Snapshot;
 use crate::panes::library::data::origin_named;
-use crate::words::{Language, library};
+use crate::words::{Language, library, search};
 
 /// The most completions.
 const MOST: usize = 10;
@@ -54,7 +54,12 @@ pub(crate) fn offers(
         .iter()
         .map(|word| Offer {
             text: with_operator(word, &completion.expected),
-            about: String::new(),
+            about: match &completion.expected {
+                Expected::Value(field) if *word == "*" && field.feature.is_none() => {
+                    search::MAIN_VALUE.of(language).to_owned()
+                }
+                _ => String::new(),
+            },
         })
         .collect();
     all.extend(names(&completion, snapshot, language));
@@ -346,6 +351,8 @@ mod tests {
         assert_eq!(first("placement=chin"), None);
         let snapshot = snapshot();
         let all = offers("placement=", 10, &snapshot, Language::French).all;
+        let any = all.iter().find(|it| it.text == "*");
+        assert!(any.is_some_and(|it| it.about.starts_with("une valeur principale")));
         assert_eq!(all.len(), MOST);
         let (text, cursor) = {
             let offers = offers("placement=ch gloss=A", 12, &snapshot, Language::English);
