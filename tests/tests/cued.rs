@@ -90,6 +90,12 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
     let captured = before[0].name.clone();
     let seen = places(&corpus, &sentence(3), &captured)?;
 
+    let read = corpus.recognise_cues(&[], &[], &options)?;
+    let hidden = read.findings.first().ok_or("no word on hidden markers")?;
+    assert!(
+        hidden.starts_with("markers are hidden at the targets: ") && hidden.contains("restore"),
+        "{hidden}"
+    );
     let how = RestoreOptions::default();
     let sentences: Vec<Name> = (0..SENTENCES).map(sentence).collect();
     let done = corpus.restore_markers(&sentences, &how, &mut Progress::new(&mut hear))?;
@@ -132,6 +138,7 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
 
     let read = corpus.recognise_cues(&[], &[], &options)?;
     assert!(!read.same && read.left_out.is_empty());
+    assert_eq!(read.findings, Vec::<String>::new());
     assert!(
         read.shapes.rate > 0.85 && read.placements.rate > 0.9,
         "{} {}",
@@ -176,6 +183,27 @@ fn a_session_is_restored_recognised_measured_and_synthesised_again() -> Result<(
             .rows
             .iter()
             .any(|row| row.part == "hand" && row.kind == "pair" && row.n > 20)
+    );
+    assert_eq!(phases.findings, Vec::<String>::new());
+    // Ends of fingers alone do not show how they bend.
+    let bending = labels::hand()
+        .into_iter()
+        .filter(|label| label.starts_with(['I', 'M', 'R', 'L']) && !label.ends_with(['1', '8']));
+    let plain = CuedOptions {
+        labels: bending.map(|label| (label, "none".to_owned())).collect(),
+        ..CuedOptions::default()
+    };
+    let guessed = corpus.cue_phases(&[], &plain)?;
+    assert!(
+        guessed.findings.len() == 1 && guessed.findings[0].contains(" is a guess "),
+        "{:?}",
+        guessed.findings
+    );
+    let found = corpus.find_cue_targets(&[sentence(3)], false, &plain)?;
+    assert!(
+        found[0].findings[0].contains(": 1 (sentence-003);"),
+        "{:?}",
+        found[0].findings
     );
     phases.draw(&folder.path().join("phases.svg"), false)?;
 

@@ -47,6 +47,7 @@ message-moving-name-fewer-recordings = name fewer recordings
 message-moving-too-few-frames-show-every-marker = too few frames show every marker of the hand and the head
 message-moving-restore-hidden-markers-first-chereme-cued = restore the hidden markers first: chereme cued CORPUS restore
 message-moving-markers-hidden-at-targets-shapes-placements = markers are hidden at the targets: { $a } of { $keys } shapes and { $b } placements are not read and count in no rate; chereme cued CORPUS restore restores the markers
+message-moving-recordings-whose-markers-do-not-show-bend = recordings whose markers do not show how fingers bend: { $n } ({ $names }); when fingers arrive there is a guess from distances, and may be 20 to 30 ms too early
 message-moving-on-tier-keys-no-key = { $key } on the tier Keys is no key
 message-moving-write-keys-as-mouth-4-4 = write keys as mouth-4, 4-m or 24; silence is an empty annotation or #
 message-moving-keys-have-no-room-in-frames = { $name }: its keys have no room in its frames

@@ -47,6 +47,7 @@ message-moving-name-fewer-recordings = nommez moins d’enregistrements
 message-moving-too-few-frames-show-every-marker = trop peu d’images montrent tous les marqueurs de la main et de la tête
 message-moving-restore-hidden-markers-first-chereme-cued = restaurez d’abord les marqueurs cachés : chereme cued CORPUS restore
 message-moving-markers-hidden-at-targets-shapes-placements = des marqueurs sont cachés aux cibles : { $a } formes sur { $keys } et { $b } emplacements ne sont pas lus et ne comptent dans aucun taux ; chereme cued CORPUS restore restaure les marqueurs
+message-moving-recordings-whose-markers-do-not-show-bend = enregistrements dont les marqueurs ne montrent pas les flexions des doigts : { $n } ({ $names }) ; l’arrivée des doigts y est devinée d’après des distances, et peut être de 20 à 30 ms trop tôt
 message-moving-on-tier-keys-no-key = { $key } sur l’acteur Keys n’est pas une clé
 message-moving-write-keys-as-mouth-4-4 = écrivez les clés comme mouth-4, 4-m ou 24 ; un silence est une annotation vide ou #
 message-moving-keys-have-no-room-in-frames = { $name } : ses clés n’ont pas de place dans ses images

@@ -89,6 +89,13 @@ impl Followed {
         self.seven.len()
     }
 
+    /// Returns whether bends show when the fingers arrive. Without them distances do, which hardly change near a straight
+    /// finger and so seem to come to rest too early.
+    #[must_use]
+    pub fn has_bends(&self) -> bool {
+        2 * self.bends.iter().flatten().count() >= self.seven.iter().flatten().count()
+    }
+
     /// Returns the fingertip that points for a shape, in the space of the head.
     #[must_use]
     pub fn tip(&self, shape: u8, frame: usize) -> Option<DVec3> {
@@ -499,12 +506,7 @@ fn gestures_of_course(
     let Some([hand, fingers]) = frames else {
         return Vec::new();
     };
-    // Distances hardly change near a straight finger, so that only bends show when it arrives there.
-    let [bends, seven] = [
-        take.bends.iter().flatten().count(),
-        take.seven.iter().flatten().count(),
-    ];
-    let has_bends = 2 * bends >= seven;
+    let has_bends = take.has_bends();
     let tips = [true, false].map(|index| {
         let of = if index { &take.index } else { &take.middle };
         let rows = of.iter().map(|at| at.map(|at| at.to_array()));

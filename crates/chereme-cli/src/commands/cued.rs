@@ -278,6 +278,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 })
                 .collect();
             output.table(&["recording", "keys", "hand", "fingers", "tiers"], &rows)?;
+            for finding in found.iter().flat_map(|it| &it.findings) {
+                output.warn(finding)?;
+            }
             if !store {
                 output.line("nothing was stored; --store writes tiers")?;
             }
@@ -317,6 +320,9 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 "share",
             ];
             output.table(&titles, &rows)?;
+            for finding in &found.findings {
+                output.warn(finding)?;
+            }
             if let Some(path) = draw {
                 found.draw(path, *force)?;
                 output.line(format!("drew {}", path.display()))?;

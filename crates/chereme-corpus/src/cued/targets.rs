@@ -31,6 +31,8 @@ pub struct CueTargets {
     pub keys: Vec<FoundKey>,
     /// The tiers that were written.
     pub tiers: Vec<String>,
+    /// What is only a guess.
+    pub findings: Vec<String>,
 }
 
 /// A key with its movements, in microseconds of the recording's clock.
@@ -67,6 +69,8 @@ pub struct CuePhaseStatistics {
     pub keys: u64,
     /// The statistics, by kind of key.
     pub rows: Vec<CuePhaseRow>,
+    /// What is only a guess.
+    pub findings: Vec<String>,
 }
 
 /// The times at which the hand or the fingers begin and arrive, for keys of one kind.
@@ -84,6 +88,24 @@ pub struct CuePhaseRow {
     pub arrives_ms: [f64; 3],
     /// The arrival as a share of the consonant for pairs, of the key for others.
     pub share: [f64; 3],
+}
+
+/// How many recordings a finding names.
+const NAMED_TAKES: usize = 8;
+
+/// Returns a finding about the takes whose markers do not show the bends of the fingers.
+fn guessed_arrivals(takes: &[Cued]) -> Option<String> {
+    let unbent = takes.iter().filter(|it| !it.followed.has_bends());
+    let names: Vec<&str> = unbent.map(|it| it.take.row.name.as_str()).collect();
+    let shown = &names[..names.len().min(NAMED_TAKES)];
+    (!names.is_empty()).then(|| {
+        format!(
+            "recordings whose markers do not show how fingers bend: {} ({}); when fingers arrive there is a guess from \
+             distances, and may be 20 to 30 ms too early",
+            names.len(),
+            shown.join(", ")
+        )
+    })
 }
 
 impl Corpus {
@@ -107,6 +129,9 @@ impl Corpus {
                 recording: own.take.row.name.clone(),
                 keys: found_keys(own, shown),
                 tiers: Vec::new(),
+                findings: guessed_arrivals(std::slice::from_ref(own))
+                    .into_iter()
+                    .collect(),
             })
             .collect();
         if !store {
@@ -160,6 +185,7 @@ impl Corpus {
                     share: [row.share.low, row.share.median, row.share.high].map(|x| rounded(x, 3)),
                 })
                 .collect(),
+            findings: guessed_arrivals(&takes).into_iter().collect(),
         })
     }
 }
