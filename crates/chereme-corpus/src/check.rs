@@ -283,6 +283,9 @@ impl Looking<'_, '_> {
         } else if let Some(first) = damaged.first() {
             let message = format!("its file {first:?} is not as it was stored");
             self.fault("index", "search index", message, next_search());
+        } else if !index_rows::has_stored_files(connection)? {
+            let message = "its files are not those that were stored";
+            self.fault("index", "search index", message, next_search());
         } else {
             store.searchable()?;
         }

@@ -18,13 +18,14 @@ use chereme_figure::{
 use chereme_motion::anatomy::Anatomy;
 use chereme_motion::{Clip, Face, Instant, Side, Span};
 use chereme_sign::hamnosys::{Symbol, drawing};
+use rusqlite::Connection;
 use serde::Serialize;
 
 use crate::Corpus;
 use crate::address::{self, Address, Stretch};
 use crate::animate::Staging;
 use crate::curves;
-use crate::db::{recordings, signs};
+use crate::db::{recordings, seals, signs};
 use crate::error::{Error, Result};
 use crate::face;
 use crate::film::{Shape, write_film};
@@ -248,6 +249,7 @@ impl Corpus {
                 return self.draw_notated(&notated, to, options, progress);
             }
         };
+        verify_stretch(connection, &stretch)?;
         let span = drawable(self.usable_span(&stretch)?)?;
         // A face from points on film is shown on the program's own body.
         let own = options.face && face::has_face(connection, stretch.recording.id)?;
@@ -296,6 +298,7 @@ impl Corpus {
         let mut all = Vec::with_capacity(addresses.len());
         for address in addresses {
             let stretch = address::stretch(self.store.read(), address)?;
+            verify_stretch(self.store.read(), &stretch)?;
             let span = drawable(self.usable_span(&stretch)?)?;
             let moving = self.movement_in(address, Some(span), &ChannelGroup::ALL)?;
             let captions = match options.captions {
@@ -329,6 +332,8 @@ impl Corpus {
             return Ok(vec![caption(&token.gloss, whole)]);
         }
         let tokens = signs::tokens_of_recording(self.store.read(), stretch.recording.id)?;
+        let numbers: Vec<i64> = tokens.iter().map(|token| token.id).collect();
+        seals::verify_tokens(self.store.read(), &numbers)?;
         let spans = tokens.iter().filter_map(|token| {
             let (start, end) = (token.start_us?, token.end_us?);
             let span = Span::between(Instant::from_micros(start), Instant::from_micros(end));
@@ -346,16 +351,23 @@ impl Corpus {
         force: bool,
         progress: &mut Progress<'_>,
     ) -> Result<Picture> {
-        let (title, text, transcribed) = match notation::find(self.store.read(), address) {
-            Ok(Notation { text, document, .. }) => {
-                let text = text.unwrap_or_else(|| document.hamnosys().text);
-                (document.gloss, text, false)
+        let connection = self.store.read();
+        let (title, text, transcribed) = match notation::find(connection, address) {
+            Ok(found) => {
+                seals::verify_tokens(connection, &[found.token])?;
+                let text = found.text.unwrap_or_else(|| found.document.hamnosys().text);
+                (found.document.gloss, text, false)
             }
-            Err(error) => match self.transcribe(address, progress) {
-                Ok(written) => (written.gloss, written.hamnosys, true),
-                Err(Error::Stopped) => return Err(Error::Stopped),
-                Err(_) => return Err(error),
-            },
+            Err(error) => {
+                if let Ok(stretch) = address::stretch(connection, address) {
+                    verify_stretch(connection, &stretch)?;
+                }
+                match self.transcribe(address, progress) {
+                    Ok(written) => (written.gloss, written.hamnosys, true),
+                    Err(Error::Stopped) => return Err(Error::Stopped),
+                    Err(_) => return Err(error),
+                }
+            }
         };
         let unknown = || Error::wrong("the notation holds what is no symbol").at(&title);
         let symbols = drawing::drawn(&text).ok_or_else(unknown)?.len();
@@ -373,6 +385,7 @@ impl Corpus {
         options: &PictureOptions,
         progress: &mut Progress<'_>,
     ) -> Result<Picture> {
+        seals::verify_tokens(self.store.read(), &[notated.token])?;
         let body = self.chosen_body()?;
         let name = format!("token:{}", notated.token);
         let staging = Staging {
@@ -412,6 +425,7 @@ impl Corpus {
         if inventory == FACES && value.is_none() {
             return faces::draw(to, options);
         }
+        seals::verify_tables(self.store.read(), ["inventory", "inventory_value"])?;
         let all = inventories::load(self.store.read())?;
         let ids: Vec<&str> = all.iter().map(|it| it.inventory.id.as_str()).collect();
         let stored = all
@@ -649,6 +663,13 @@ fn strip<'a>(
         cells.push((animation, scene.captions.clone()));
     }
     Strip::new(cells, Theme::Light).map_err(figure)
+}
+
+/// Fails if the rows that a picture of a stretch shows are not as they were stored.
+fn verify_stretch(connection: &Connection, stretch: &Stretch) -> Result<()> {
+    let tokens: Vec<i64> = stretch.token.iter().map(|token| token.id).collect();
+    seals::verify_tokens(connection, &tokens)?;
+    seals::verify_recordings(connection, &[stretch.recording.id])
 }
 
 fn title(stretch: &Stretch) -> String {

@@ -111,6 +111,7 @@ message-editing-correct-tiers-in-file-they-come = correct the tiers in the file 
 message-editing-correct-in-file-comes-from-import = correct it in the file that it comes from and import that again, or remove it: `chereme annotate CORPUS remove ANNOTATION`
 message-editing-content-does-not-match-checksum = its content does not match its checksum
 message-editing-compare-with-backup-if-right-as = compare it with a backup; if it is right as it is now, `chereme check CORPUS --accept` keeps it so
+message-editing-files-not-those-stored = its files are not those that were stored
 message-editing-file-not-as-stored = its file { $name } is not as it was stored
 message-editing-bytes-do-not-match-hash = its bytes do not match its hash
 message-editing-plan-does-not-match-hash-names = its plan does not match the hash that names it

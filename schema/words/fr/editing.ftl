@@ -111,6 +111,7 @@ message-editing-correct-tiers-in-file-they-come = corrigez les acteurs dans le f
 message-editing-correct-in-file-comes-from-import = corrigez-la dans le fichier d’où elle vient et importez-le de nouveau, ou supprimez-la : `chereme annotate CORPUS remove ANNOTATION`
 message-editing-content-does-not-match-checksum = son contenu ne correspond pas à sa somme de contrôle
 message-editing-compare-with-backup-if-right-as = comparez avec une sauvegarde ; si c’est juste tel quel, `chereme check CORPUS --accept` le garde ainsi
+message-editing-files-not-those-stored = ses fichiers ne sont pas ceux qui ont été enregistrés
 message-editing-file-not-as-stored = son fichier { $name } n’est pas tel qu’il a été enregistré
 message-editing-bytes-do-not-match-hash = ses octets ne correspondent pas à son empreinte
 message-editing-plan-does-not-match-hash-names = son plan ne correspond pas à l’empreinte qui le nomme

@@ -236,7 +236,7 @@ fn row_sums(
     Ok(sums)
 }
 
-fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> Result<u64> {
+pub(super) fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> Result<u64> {
     let found: Option<i64> = connection
         .prepare_cached("SELECT seal FROM row_seal WHERE tbl = ?1 AND bucket = ?2")?
         .query_row(params![table, bucket], |row| row.get(0))
@@ -244,7 +244,12 @@ fn stored_seal(connection: &Connection, table: &str, bucket: i64) -> Result<u64>
     Ok(found.unwrap_or_default().cast_unsigned())
 }
 
-fn store_seal(connection: &Connection, table: &str, bucket: i64, seal: u64) -> Result<()> {
+pub(super) fn store_seal(
+    connection: &Connection,
+    table: &str,
+    bucket: i64,
+    seal: u64,
+) -> Result<()> {
     let sql = if seal == 0 {
         "DELETE FROM row_seal WHERE tbl = ?1 AND bucket = ?2 AND ?3 = 0"
     } else {
@@ -333,6 +338,12 @@ pub(crate) fn tables_of(are_tokens: bool) -> impl Iterator<Item = &'static str> 
     let recordings = (!are_tokens).then_some(OF_RECORDINGS);
     let tables = recordings.into_iter().flatten().chain(OF_TOKENS);
     tables.map(|(table, _)| table)
+}
+
+/// Fails at the first row of any recording, token or inventory that does not have its seal.
+pub(crate) fn verify_material(connection: &Connection) -> Result<()> {
+    let tables = tables_of(false).chain(["inventory", "inventory_value"]);
+    verify_tables(connection, tables)
 }
 
 /// Fails at the first row of these recordings, with their tiers and movement, that does not have its seal.

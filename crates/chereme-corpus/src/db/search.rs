@@ -6,6 +6,7 @@ pub(crate) mod terms;
 
 use rusqlite::{Connection, Transaction, TransactionBehavior, params};
 
+use super::seals;
 use crate::error::{Error, Result};
 
 pub(crate) use documents::{TokenDocument, each};
@@ -101,6 +102,32 @@ pub(crate) fn file(connection: &Connection, path: &str) -> Result<Vec<u8>> {
         return Err(Error::Index(reason.into()));
     }
     Ok(data)
+}
+
+/// The table of the index's files; they share a seal.
+const FILES: &str = "search_file";
+
+/// Returns the checksum of the names and checksums of the index's files.
+fn files_sum(connection: &Connection) -> Result<u64> {
+    let sql = "SELECT path, checksum FROM search_file WHERE path NOT LIKE 'faces/%' ORDER BY path";
+    let mut statement = connection.prepare_cached(sql)?;
+    let mut rows = statement.query([])?;
+    let mut sum = crc32fast::Hasher::new();
+    while let Some(row) = rows.next()? {
+        sum.update(row.get_ref(0)?.as_bytes().map_err(rusqlite::Error::from)?);
+        sum.update(&row.get::<_, i64>(1)?.to_le_bytes());
+    }
+    Ok(sum.finalize().into())
+}
+
+/// Returns whether the index has the files that were stored last, each with the checksum of then.
+pub(crate) fn has_stored_files(connection: &Connection) -> Result<bool> {
+    Ok(seals::stored_seal(connection, FILES, 0)? == files_sum(connection)?)
+}
+
+/// Records the index's files as they are.
+pub(crate) fn seal_files(connection: &Connection) -> Result<()> {
+    seals::store_seal(connection, FILES, 0, files_sum(connection)?)
 }
 
 /// Returns the names of files whose bytes do not match their checksum.

@@ -55,13 +55,13 @@ fn delete(corpus: &mut Corpus, what: &str, dependents: Dependents) -> Result<Del
 fn state(corpus: &Corpus) -> Vec<(String, Vec<Value>)> {
     let connection = corpus.store.read();
     let tables = "SELECT name FROM sqlite_schema WHERE type = 'table' AND name NOT LIKE 'search_%'
-                  AND name NOT IN ('operation', 'changeset') ORDER BY name";
+                  AND name NOT IN ('operation', 'changeset', 'search_file') ORDER BY name";
     let mut tables = connection.prepare(tables).expect("a schema");
     let tables = tables.query_map([], |row| row.get::<_, String>(0));
     let mut all = Vec::new();
     for table in tables.expect("tables").map(|it| it.expect("a name")) {
         let kept = match &*table {
-            "row_seal" => "WHERE tbl NOT IN ('operation', 'changeset')",
+            "row_seal" => "WHERE tbl NOT IN ('operation', 'changeset', 'search_file')",
             _ => "",
         };
         let sql = format!("SELECT * FROM {table} {kept} ORDER BY 1, 2");

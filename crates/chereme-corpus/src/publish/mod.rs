@@ -168,8 +168,7 @@ impl Corpus {
                 .at(to.display().to_string())
                 .advise("name a folder that holds only what everybody may see"));
         }
-        let tables = seals::tables_of(false).chain(["inventory", "inventory_value"]);
-        seals::verify_tables(self.store.read(), tables)?;
+        seals::verify_material(self.store.read())?;
         let terms = options.terms.as_deref().map(str::trim);
         let terms = terms.filter(|it| !it.is_empty());
         let permissions = Permissions::of(self.store.read(), terms)?;

@@ -13,6 +13,7 @@ use super::plan::{Plan, QuestionKind, text_in};
 use super::{Study, order};
 use crate::Corpus;
 use crate::db::motion::hex;
+use crate::db::seals;
 use crate::error::{Error, Result};
 use crate::film::{Shape, write_film};
 use crate::page::{base64, filled};
@@ -89,6 +90,7 @@ impl Corpus {
         if page.exists() && !options.force {
             return Err(Error::file(page, std::io::ErrorKind::AlreadyExists.into()));
         }
+        seals::verify_material(self.store.read())?;
         let media = to.join(MEDIA);
         let new = !to.exists();
         fs::create_dir_all(&media).map_err(|error| Error::file(&media, error))?;

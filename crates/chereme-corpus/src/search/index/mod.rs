@@ -228,6 +228,11 @@ impl OpenIndex {
     /// Loads the index that includes the first `indexed` changes; reuses the files that it has in common with `before`,
     /// an index of another state.
     fn load(connection: &Connection, indexed: i64, before: Option<&Self>) -> Result<Self> {
+        if !rows::has_stored_files(connection)? {
+            return Err(Error::Index(
+                "its files are not those that were stored".into(),
+            ));
+        }
         let mut folder = MemoryFolder::default();
         let mut missing = 0;
         for name in rows::file_names(connection)? {
@@ -354,6 +359,7 @@ impl OpenIndex {
         for (path, data) in changes.written {
             rows::write_file(connection, &path, &data)?;
         }
+        rows::seal_files(connection)?;
         State::seen(connection, content, FORMAT)?;
         self.indexed = content;
         Ok(())

@@ -168,6 +168,12 @@ fn what_cannot_be_made_is_named_and_a_stopped_build_leaves_nothing() {
     let done = corpus.build_study("placing", &to, small, &mut Progress::new(&mut stop));
     assert!(matches!(done, Err(Error::Stopped)));
     assert!(!to.exists());
+    let damage = "UPDATE track SET metres_per_unit = metres_per_unit * 2";
+    let done = rusqlite::Connection::open(corpus.path()).and_then(|it| it.execute_batch(damage));
+    done.expect("damaged");
+    let done = corpus.build_study("placing", &to, small, progress);
+    assert!(matches!(done, Err(Error::Damaged { .. })), "{done:?}");
+    assert!(!to.exists());
     corpus.undo().expect("undone");
     assert!(corpus.study("placing").is_err());
 }
