@@ -105,7 +105,7 @@ pub(crate) fn file(connection: &Connection, path: &str) -> Result<Vec<u8>> {
 }
 
 /// The table of the index's files; they share a seal.
-const FILES: &str = "search_file";
+const INDEX_FILES: &str = "search_file";
 
 /// Returns the checksum of the names and checksums of the index's files.
 fn files_sum(connection: &Connection) -> Result<u64> {
@@ -122,12 +122,12 @@ fn files_sum(connection: &Connection) -> Result<u64> {
 
 /// Returns whether the index has the files that were stored last, each with the checksum of then.
 pub(crate) fn has_stored_files(connection: &Connection) -> Result<bool> {
-    Ok(seals::stored_seal(connection, FILES, 0)? == files_sum(connection)?)
+    Ok(seals::stored_seal(connection, INDEX_FILES, 0)? == files_sum(connection)?)
 }
 
 /// Records the index's files as they are.
 pub(crate) fn seal_files(connection: &Connection) -> Result<()> {
-    seals::store_seal(connection, FILES, 0, files_sum(connection)?)
+    seals::store_seal(connection, INDEX_FILES, 0, files_sum(connection)?)
 }
 
 /// Returns the names of files whose bytes do not match their checksum.
