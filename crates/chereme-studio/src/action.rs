@@ -28,14 +28,17 @@ macro_rules! actions {
                 owner: $owner,
                 repeats: false $(|| actions!(@repeats $flag))*,
                 changes: false $(|| actions!(@changes $flag))*,
+                edits: false $(|| actions!(@edits $flag))*,
                 keys: [$elan, $praat, $editor],
             },)*]
         };
     };
     (@repeats repeats) => { true };
-    (@repeats changes) => { false };
-    (@changes changes) => { true };
+    (@repeats $other:ident) => { false };
     (@changes repeats) => { false };
+    (@changes $other:ident) => { true };
+    (@edits edits) => { true };
+    (@edits $other:ident) => { false };
 }
 
 mod table;
@@ -123,6 +126,8 @@ pub(crate) struct ActionRow {
     pub(crate) owner: Owner,
     /// Whether it changes the corpus, or begins to.
     pub(crate) changes: bool,
+    /// Whether it changes annotations or tiers of the timeline at once, so that its keys count only where they are seen.
+    pub(crate) edits: bool,
     /// The keys of ELAN, of Praat and of video editors.
     keys: [&'static str; 3],
 }

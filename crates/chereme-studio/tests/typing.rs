@@ -3,7 +3,7 @@
 mod common;
 
 use common::tiers::*;
-use common::{Window, click, has, idle};
+use common::{Window, click, contains, has, idle};
 use eframe::egui::{Event, Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT, Queryable};
 
@@ -36,7 +36,7 @@ fn focused(window: &Window<'_>) -> Option<String> {
 }
 
 #[test]
-fn digits_and_delete_do_nothing_outside_the_timeline() {
+fn keys_that_code_do_nothing_outside_the_timeline_and_say_so() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = opened(folder.path());
     select_handshape(&mut window);
@@ -58,6 +58,19 @@ fn digits_and_delete_do_nothing_outside_the_timeline() {
             // In the library it deletes the recording.
             press(&mut window, NONE, Key::Delete);
         }
+        let said = "Shift+F3 gives the timeline the focus";
+        assert!(contains(&window, said), "{key:?}");
+        for (modifiers, key) in [
+            (NONE, Key::Enter),
+            (Modifiers::SHIFT, Key::Enter),
+            (Modifiers::SHIFT, Key::Enter),
+            (CTRL, Key::Delete),
+        ] {
+            press(&mut window, modifiers, key);
+            assert!(!contains(&window, "Value on"), "{key:?}");
+        }
+        window.event(Event::Cut);
+        window.event(Event::Paste("Configuration RH\t1\t2\tB".into()));
         idle(&mut window);
         assert_eq!(operations(&window), before, "{key:?}");
     }
@@ -110,4 +123,27 @@ fn the_end_of_an_annotation_opens_its_field_in_sight() {
     press(&mut window, NONE, Key::Enter);
     stored(&mut window, before + 2);
     assert_eq!(values(&window, "Gloss"), ["HUIS-2"]);
+}
+
+#[test]
+fn an_annotation_is_begun_only_from_the_timeline() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = emptied(folder.path());
+    press(&mut window, CTRL, Key::B);
+    let before = operations(&window);
+    let begin_and_end = |window: &mut Window<'_>| {
+        for _ in 0..2 {
+            press(window, Modifiers::SHIFT, Key::Enter);
+            press(window, CTRL, Key::ArrowRight);
+            press(window, CTRL, Key::ArrowRight);
+        }
+        idle(window);
+        window.run_steps(3);
+    };
+    press(&mut window, Modifiers::SHIFT, Key::F2);
+    begin_and_end(&mut window);
+    assert_eq!(operations(&window), before);
+    press(&mut window, Modifiers::SHIFT, Key::F3);
+    begin_and_end(&mut window);
+    assert!(has(&window, "Value on Gloss"));
 }

@@ -1,7 +1,7 @@
 //! Every action, in the order of the menus.
 //!
 //! A row: the variant, the name in the settings file, the words in English and French; menu, where its keys count, who
-//! carries it out, whether it changes the corpus and whether a held key repeats it, and the keys of ELAN 6.9, of Praat
+//! carries it out, whether it changes the corpus (`edits`: annotations at once) and whether a held key repeats it, and the keys of ELAN 6.9, of Praat
 //! and of video editors. Several keys are parted by blanks; `none` is none; `=` is the same as ELAN's. `Runs` holds a use
 //! case on the selection, as a closure that returns its job.
 
@@ -69,11 +69,11 @@ actions! {
     CopyWithBelow "edit.copy-with-below" "Copy the annotations with their dependents" | "Copier les annotations avec celles qui en dépendent"
         Edit, Corpus, In(Timeline), "Ctrl+Alt+C" "=" "=";
     Cut "edit.cut" "Cut the annotations" | "Couper les annotations"
-        Edit, Corpus, In(Timeline), changes, "Ctrl+X" "=" "=";
+        Edit, Corpus, In(Timeline), edits, "Ctrl+X" "=" "=";
     Paste "edit.paste" "Paste at the times copied" | "Coller aux temps copiés"
-        Edit, Corpus, WithCorpus, changes, "Ctrl+V" "=" "Ctrl+Shift+V";
+        Edit, Corpus, WithCorpus, edits, "Ctrl+V" "=" "Ctrl+Shift+V";
     PasteHere "edit.paste-here" "Paste at the playhead" | "Coller au curseur"
-        Edit, Corpus, WithCorpus, changes, "Ctrl+Shift+V" "=" "Ctrl+V";
+        Edit, Corpus, WithCorpus, edits, "Ctrl+Shift+V" "=" "Ctrl+V";
     CopyTime "edit.copy-time" "Copy the time of the playhead" | "Copier le temps du curseur"
         Edit, Corpus, In(Timeline), "Ctrl+Alt+G" "=" "=";
     NewAnnotation "annotation.new" "New annotation on the selection" | "Nouvelle annotation sur la sélection"
@@ -83,19 +83,19 @@ actions! {
     NewAfter "annotation.new-after" "New annotation after this one" | "Nouvelle annotation après celle-ci"
         Annotation, Corpus, In(Timeline), changes, "Shift+Alt+N" "=" "=";
     NewBelow "annotation.new-below" "Annotations on the tiers below" | "Annotations sur les acteurs dépendants"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+Shift+Alt+D" "=" "=";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+Shift+Alt+D" "=" "=";
     Duplicate "annotation.duplicate" "Duplicate the annotation" | "Dupliquer l’annotation"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+D" "=" "Alt+D";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+D" "=" "Alt+D";
     BeginEndAnnotation "annotation.begin-end" "Begin or end an annotation at the playhead" | "Commencer ou finir une annotation au curseur"
-        Annotation, Corpus, In(Timeline), changes, "Shift+Enter" "=" "=";
+        Annotation, Corpus, In(Timeline), edits, "Shift+Enter" "=" "=";
     SplitAnnotation "annotation.split" "Split the annotation at the playhead" | "Scinder l’annotation au curseur"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+Alt+S" "=" "Ctrl+B S";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+Alt+S" "=" "Ctrl+B S";
     MergeAnnotation "annotation.merge" "Merge with the next annotation" | "Fusionner avec l’annotation suivante"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+Shift+A" "=" "=";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+Shift+A" "=" "=";
     MergePrevious "annotation.merge-previous" "Merge with the previous annotation" | "Fusionner avec l’annotation précédente"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+Shift+B" "=" "=";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+Shift+B" "=" "=";
     DeleteAnnotation "annotation.delete" "Delete the annotation" | "Supprimer l’annotation"
-        Annotation, Corpus, In(Timeline), changes, "Ctrl+Alt+D Delete" "Alt+Backspace Delete" "Delete";
+        Annotation, Corpus, In(Timeline), edits, "Ctrl+Alt+D Delete" "Alt+Backspace Delete" "Delete";
     UseInRecipe "recombine.use" "Use in the recipe" | "Utiliser dans la recette"
         Edit, Corpus, WithCorpus, "Ctrl+Alt+R" "=" "=";
     OpenRecipe "recombine.open-recipe" "Open its recipe again" | "Rouvrir sa recette"
@@ -141,7 +141,7 @@ actions! {
     SelectOnTier "annotation.select-on-tier" "Select all on the tier" | "Tout sélectionner sur l’acteur"
         Annotation, Corpus, In(Timeline), "Ctrl+A" "Ctrl+Alt+A" "=";
     EnterValue "value.enter" "Accept the proposal, or type the value" | "Accepter la proposition, ou saisir la valeur"
-        Value, Corpus, In(Timeline), changes, "Enter" "=" "=";
+        Value, Corpus, In(Timeline), edits, "Enter" "=" "=";
     EditValue "value.edit" "Type the value" | "Saisir la valeur"
         Value, Corpus, In(Timeline), changes, "F2 Ctrl+Alt+M" "=" "=";
     Propose "value.propose" "Propose values from movement" | "Proposer des valeurs d’après le mouvement"
@@ -149,53 +149,53 @@ actions! {
     Detect "value.detect" "Propose with a detector…" | "Proposer avec un détecteur…"
         Value, Corpus, In(Timeline), changes, "Ctrl+Shift+Alt+P" "=" "=";
     AcceptProposal "value.accept" "Accept the proposal" | "Accepter la proposition"
-        Value, Corpus, In(Timeline), changes, "Alt+Enter" "=" "=";
+        Value, Corpus, In(Timeline), edits, "Alt+Enter" "=" "=";
     NextProposal "value.next-proposal" "Next doubtful proposal" | "Proposition douteuse suivante"
         Value, Corpus, In(Timeline), changes repeats, "Alt+N" "=" "=";
     PictureValue "value.picture" "Choose the value by picture" | "Choisir la valeur en image"
         Value, Corpus, In(Timeline), changes, "F3" "=" "=";
     ClearValue "value.clear" "Clear the value" | "Effacer la valeur"
-        Value, Corpus, In(Timeline), changes, "Ctrl+Delete" "=" "=";
+        Value, Corpus, In(Timeline), edits, "Ctrl+Delete" "=" "=";
     Value1 "value.1" "Value 1 of the tier" | "Valeur 1 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "1" "=" "=";
+        Value, Corpus, In(Timeline), edits, "1" "=" "=";
     Value2 "value.2" "Value 2 of the tier" | "Valeur 2 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "2" "=" "=";
+        Value, Corpus, In(Timeline), edits, "2" "=" "=";
     Value3 "value.3" "Value 3 of the tier" | "Valeur 3 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "3" "=" "=";
+        Value, Corpus, In(Timeline), edits, "3" "=" "=";
     Value4 "value.4" "Value 4 of the tier" | "Valeur 4 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "4" "=" "=";
+        Value, Corpus, In(Timeline), edits, "4" "=" "=";
     Value5 "value.5" "Value 5 of the tier" | "Valeur 5 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "5" "=" "=";
+        Value, Corpus, In(Timeline), edits, "5" "=" "=";
     Value6 "value.6" "Value 6 of the tier" | "Valeur 6 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "6" "=" "=";
+        Value, Corpus, In(Timeline), edits, "6" "=" "=";
     Value7 "value.7" "Value 7 of the tier" | "Valeur 7 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "7" "=" "=";
+        Value, Corpus, In(Timeline), edits, "7" "=" "=";
     Value8 "value.8" "Value 8 of the tier" | "Valeur 8 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "8" "=" "=";
+        Value, Corpus, In(Timeline), edits, "8" "=" "=";
     Value9 "value.9" "Value 9 of the tier" | "Valeur 9 de l’acteur"
-        Value, Corpus, In(Timeline), changes, "9" "=" "=";
+        Value, Corpus, In(Timeline), edits, "9" "=" "=";
     StartHere "timing.start-here" "Start of the annotation to the playhead" | "Début de l’annotation au curseur"
-        Timing, Corpus, In(Timeline), changes, "Alt+OpenBracket" "=" "=";
+        Timing, Corpus, In(Timeline), edits, "Alt+OpenBracket" "=" "=";
     EndHere "timing.end-here" "End of the annotation to the playhead" | "Fin de l’annotation au curseur"
-        Timing, Corpus, In(Timeline), changes, "Alt+CloseBracket" "=" "=";
+        Timing, Corpus, In(Timeline), edits, "Alt+CloseBracket" "=" "=";
     StartToNeighbour "timing.start-to-neighbour" "Start to the end of the annotation before" | "Début à la fin de l’annotation précédente"
-        Timing, Corpus, In(Timeline), changes, "Shift+Alt+J" "=" "=";
+        Timing, Corpus, In(Timeline), edits, "Shift+Alt+J" "=" "=";
     EndToNeighbour "timing.end-to-neighbour" "End to the start of the annotation after" | "Fin au début de l’annotation suivante"
-        Timing, Corpus, In(Timeline), changes, "Shift+Alt+U" "=" "=";
+        Timing, Corpus, In(Timeline), edits, "Shift+Alt+U" "=" "=";
     ToSelection "timing.to-selection" "Time of the annotation to the selection" | "Temps de l’annotation à la sélection"
-        Timing, Corpus, In(Timeline), changes, "Ctrl+Enter" "=" "=";
+        Timing, Corpus, In(Timeline), edits, "Ctrl+Enter" "=" "=";
     StartEarlier "timing.start-earlier" "Start one frame earlier" | "Début une image plus tôt"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+J" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+J" "=" "=";
     StartLater "timing.start-later" "Start one frame later" | "Début une image plus tard"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+U" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+U" "=" "=";
     EndEarlier "timing.end-earlier" "End one frame earlier" | "Fin une image plus tôt"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+Shift+J" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+J" "=" "=";
     EndLater "timing.end-later" "End one frame later" | "Fin une image plus tard"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+Shift+U" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+U" "=" "=";
     ShiftEarlier "timing.shift-earlier" "Shift one frame earlier" | "Décaler d’une image en arrière"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+Alt+J" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+Alt+J" "=" "=";
     ShiftLater "timing.shift-later" "Shift one frame later" | "Décaler d’une image en avant"
-        Timing, Corpus, In(Timeline), changes repeats, "Ctrl+Alt+U" "=" "=";
+        Timing, Corpus, In(Timeline), edits repeats, "Ctrl+Alt+U" "=" "=";
     SelectFromHere "timing.select-from-here" "Select from the playhead" | "Sélectionner à partir du curseur"
         Timing, Corpus, In(Timeline), "Ctrl+OpenBracket" "=" "I";
     SelectToHere "timing.select-to-here" "Select up to the playhead" | "Sélectionner jusqu’au curseur"
@@ -235,13 +235,13 @@ actions! {
     RemoveTier "tier.remove" "Remove the tier…" | "Supprimer l’acteur…"
         Tier, Corpus, In(Timeline), changes, "Ctrl+Alt+T" "=" "=";
     TierUp "tier.up" "Move the tier up" | "Monter l’acteur"
-        Tier, Corpus, In(Timeline), changes repeats, "Ctrl+Shift+Up" "=" "=";
+        Tier, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+Up" "=" "=";
     TierDown "tier.down" "Move the tier down" | "Descendre l’acteur"
-        Tier, Corpus, In(Timeline), changes repeats, "Ctrl+Shift+Down" "=" "=";
+        Tier, Corpus, In(Timeline), edits repeats, "Ctrl+Shift+Down" "=" "=";
     TiersByName "tier.by-name" "Sort the tiers by name" | "Trier les acteurs par nom"
-        Tier, Corpus, In(Timeline), changes, "Shift+Alt+O" "=" "=";
+        Tier, Corpus, In(Timeline), edits, "Shift+Alt+O" "=" "=";
     TiersByKind "tier.by-kind" "Sort the tiers by subject" | "Trier les acteurs par objet"
-        Tier, Corpus, In(Timeline), changes, "Shift+Alt+K" "=" "=";
+        Tier, Corpus, In(Timeline), edits, "Shift+Alt+K" "=" "=";
     FoldTier "tier.fold" "Fold or unfold the tiers below" | "Replier ou déplier les acteurs du dessous"
         Tier, Corpus, In(Timeline), "Ctrl+Alt+F" "=" "=";
     HideTier "tier.hide" "Hide the tier" | "Masquer l’acteur"

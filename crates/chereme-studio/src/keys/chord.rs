@@ -88,11 +88,12 @@ impl Chord {
         label + key
     }
 
-    /// Returns whether the chord is a digit, a letter or Delete alone, which code what is selected and are easily typed by
-    /// mistake.
+    /// Returns whether the chord is a digit, a letter, Enter or Delete, with Shift or alone: they code what is selected and
+    /// are easily typed by mistake.
     pub(crate) fn is_for_coding(self) -> bool {
         let written = (Key::Num0..=Key::Z).contains(&self.key);
-        !self.ctrl && !self.alt && (written || matches!(self.key, Key::Delete | Key::Backspace))
+        let codes = matches!(self.key, Key::Delete | Key::Backspace | Key::Enter);
+        !self.ctrl && !self.alt && (written || codes)
     }
 
     /// Returns whether a focused handle on the stage uses the chord itself.

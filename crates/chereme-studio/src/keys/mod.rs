@@ -53,7 +53,7 @@ pub(crate) struct KeyContext {
     pub(crate) corpus: bool,
     /// The pane that has the focus, if it is in sight.
     pub(crate) pane: Option<PaneKind>,
-    /// Whether the rows of the timeline have the focus, so that digits and letters code.
+    /// Whether the rows of the timeline have the focus, so that digits, letters and Enter code.
     pub(crate) coding: bool,
     /// Whether a text field has the keyboard focus.
     pub(crate) typing: bool,
@@ -137,7 +137,7 @@ impl Keys {
         }
         let counts = |row: &ActionRow| match row.context {
             Context::Everywhere => true,
-            Context::Corpus => place.corpus && (!chord.is_for_coding() || place.may_code(row)),
+            Context::Corpus => place.corpus && place.may_act(chord, row),
             Context::Pane(pane) => place.corpus && place.pane == Some(pane),
         };
         let mut found = ACTIONS
@@ -168,13 +168,28 @@ impl Keys {
             _ => None,
         }
     }
+
+    /// Returns whether an event, which has no action here and is for no widget, would edit annotations in the timeline.
+    pub(crate) fn edits_elsewhere(&self, event: &Event, place: KeyContext) -> bool {
+        let timeline = KeyContext {
+            pane: Some(PaneKind::Timeline),
+            coding: true,
+            ..place
+        };
+        let action = self.action_of(event, timeline);
+        !place.focused && action.is_some_and(|(action, _)| action.row().edits)
+    }
 }
 
 impl KeyContext {
-    /// Returns whether a digit, a letter or Delete alone may carry out an action here: what is coded only in the rows of
-    /// the timeline, and playing also where the movement is looked at.
-    fn may_code(self, row: &ActionRow) -> bool {
-        use PaneKind::{Film, Stage, Timeline};
+    /// Returns whether a chord may carry out an action here. One that codes does so only in the rows of the timeline, and
+    /// plays also where the movement is looked at; another one edits annotations only in the panes that show them.
+    fn may_act(self, chord: Chord, row: &ActionRow) -> bool {
+        use PaneKind::{Film, Inspector, Stage, Timeline};
+        if !chord.is_for_coding() {
+            let in_sight = [Timeline, Stage, Film, Inspector];
+            return !row.edits || self.pane.is_none_or(|pane| in_sight.contains(&pane));
+        }
         let looking = [None, Some(Stage), Some(Film)].contains(&self.pane) && !self.focused;
         match row.owner {
             Owner::Player => self.coding || looking,
@@ -263,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_and_letters_code_only_in_the_rows_of_the_timeline() {
+    fn plain_keys_code_only_in_the_rows_of_the_timeline() {
         let place = |pane, coding, focused| KeyContext {
             pane,
             coding,
@@ -294,6 +309,62 @@ mod tests {
             let library = place(Some(PaneKind::Library), false, false);
             let delete = keys.action(chord("Delete"), library);
             assert_eq!(delete, Some(Action::DeleteListed));
+        }
+    }
+
+    #[test]
+    fn keys_that_edit_annotations_act_only_in_panes_that_show_them() {
+        use PaneKind::{Film, Inspector, Stage, Timeline};
+        for (keymap, _) in Keymap::ALL {
+            let keys = Keys::new(keymap, &Rebound::new(), Language::English);
+            let editing = ACTIONS.iter().filter(|row| row.edits);
+            let chords = editing.flat_map(|row| keys.of(row.action));
+            for chord in chords.filter(|it| !it.is_for_coding()) {
+                for pane in PaneKind::ALL {
+                    let place = KeyContext {
+                        pane: Some(pane),
+                        ..AT
+                    };
+                    let action = keys.action(*chord, place);
+                    let edits = action.is_some_and(|it| it.row().edits);
+                    let wanted = [Timeline, Stage, Film, Inspector].contains(&pane);
+                    assert_eq!(edits, wanted, "{keymap:?} {pane:?} {chord}");
+                }
+            }
+        }
+        let keys = Keys::new(Keymap::Elan, &Rebound::new(), Language::English);
+        let search = KeyContext {
+            pane: Some(PaneKind::Search),
+            ..AT
+        };
+        let button = KeyContext {
+            focused: true,
+            ..search
+        };
+        for (text, place, said) in [
+            ("Enter", search, true),
+            ("Shift+Enter", search, true),
+            ("3", search, true),
+            ("Ctrl+Delete", search, true),
+            ("Ctrl+F12", search, false),
+            ("Enter", button, false),
+        ] {
+            let Chord {
+                key, ctrl, shift, ..
+            } = chord(text);
+            let event = Event::Key {
+                key,
+                physical_key: None,
+                pressed: true,
+                repeat: false,
+                modifiers: Modifiers {
+                    shift,
+                    command: ctrl,
+                    ..Modifiers::NONE
+                },
+            };
+            assert_eq!(keys.action_of(&event, place), None, "{text}");
+            assert_eq!(keys.edits_elsewhere(&event, place), said, "{text}");
         }
     }
 

@@ -115,6 +115,9 @@ impl Studio {
                 let Some(event) = self.waiting.take_event() else {
                     break;
                 };
+                if !listens && self.keys.edits_elsewhere(&event, place) {
+                    self.out.send(Command::Cannot(words::EDITS_ELSEWHERE));
+                }
                 let closes = may_close_field(&event);
                 self.overlays.notices.may_close = closes && !place.menu && !place.typing;
                 passed.push(event);

@@ -65,6 +65,7 @@ texts! {
     DRAFT_LOST_REMEDY: "Its annotation or tier is gone. Type it elsewhere, or undo what removed it.", "Son annotation ou son acteur n’existe plus. Écrivez-le ailleurs, ou annulez ce qui l’a supprimé.";
     KEYS_FORGOTTEN: "Keys typed after it were not used: “{text}”", "Les touches suivantes n’ont pas servi : « {text} »";
     KEYS_FORGOTTEN_REMEDY: "They were meant for the change that was refused. Type them again.", "Elles suivaient la modification refusée. Tapez-les à nouveau.";
+    EDITS_ELSEWHERE: "This key changes annotations only where they are seen: {pane.timeline} gives the timeline the focus.", "Cette touche ne modifie les annotations que là où on les voit : {pane.timeline} donne le focus à la ligne de temps.";
     ALL_ACCEPTED: "All proposals of this recording are accepted.", "Toutes les propositions de cet enregistrement sont acceptées.";
     HOLDS_PROPOSALS: "This tier holds proposals. Choose the tier of a person to annotate.", "Cet acteur porte des propositions. Choisissez l’acteur d’une personne pour annoter.";
     TO_LEFT: "left", "gauche";
