@@ -407,3 +407,64 @@ fn an_error_replaces_the_hits_of_another_query_and_a_slip_is_mended_by_a_click()
         format!("right.configuration={value} gloss=x")
     );
 }
+
+#[test]
+fn taking_over_searches_of_this_computer_asks_before_one_is_replaced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = r#"{"searches": {"saved": [
+        {"name": "chin", "query": "placement=head"},
+        {"name": "short", "query": "duration<1s"}
+    ]}}"#;
+    std::fs::create_dir_all(folder.path().join("config")).expect("a folder");
+    std::fs::write(folder.path().join("config/studio.json"), settings).expect("written");
+    let path = small_corpus(folder.path());
+    let kept = || {
+        let corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+        let all = corpus.kept_searches().expect("read");
+        all.into_iter()
+            .map(|it| format!("{}: {}", it.name, it.query))
+            .collect::<Vec<_>>()
+    };
+    let own = chereme_corpus::KeptSearch {
+        name: "Chin".into(),
+        query: "placement=chin".into(),
+    };
+    let mut corpus = chereme_corpus::Corpus::open(&path, "B").expect("opened");
+    corpus.keep_searches(&[own]).expect("kept");
+    let mut window = window(chereme_studio::Options {
+        corpus: Some(path.clone()),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "escargot"));
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F2);
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F);
+    window.run_steps(3);
+    click(&mut window, "Saved");
+    window.run_steps(3);
+    click(&mut window, "Take over into this corpus");
+    idle(&mut window);
+    window.run_steps(3);
+    assert_eq!(kept(), ["Chin: placement=chin"], "nothing without a word");
+    assert!(has(
+        &window,
+        "This corpus has other searches of these names: chin."
+    ));
+    click(&mut window, "Only the others");
+    until(&mut window, "the others", |window| {
+        has(window, "Delete short")
+    });
+    idle(&mut window);
+    window.run_steps(3);
+    assert_eq!(kept(), ["Chin: placement=chin", "short: duration<1s"]);
+    // The one that was not taken over is still there.
+    click(&mut window, "Take over into this corpus");
+    window.run_steps(3);
+    click(&mut window, "Replace them");
+    until(&mut window, "the search in its place", |window| {
+        has(window, "Delete chin")
+    });
+    assert_eq!(kept(), ["chin: placement=head", "short: duration<1s"]);
+    window.run_steps(3);
+    assert!(!has(&window, "Take over into this corpus"));
+}

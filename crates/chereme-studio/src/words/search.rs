@@ -83,6 +83,9 @@ texts! {
     SAVED: "Saved", "Enregistrées";
     OF_THIS_COMPUTER: "Searches that were saved on this computer before: {n}", "Recherches enregistrées auparavant sur cet ordinateur : {n}";
     TAKE_OVER: "Take over into this corpus", "Reprendre dans ce corpus";
+    TAKE_REPLACES: "This corpus has other searches of these names: {names}.", "Ce corpus a d’autres recherches de ces noms : {names}.";
+    TAKE_ALL: "Replace them", "Les remplacer";
+    TAKE_OTHERS: "Only the others", "Seulement les autres";
     LEAVE_BEHIND: "Forget them", "Les oublier";
     SAVE_NAME: "Name of this search", "Nom de cette recherche";
     SAVE: "Save", "Enregistrer";

@@ -11,7 +11,7 @@ use eframe::egui::{Button, Key, Popup, PopupCloseBehavior, Role, ScrollArea, Ui,
 use crate::command::Command;
 use crate::context::{Outbox, PaneInput};
 use crate::script::edit;
-use crate::settings::Searches;
+use crate::settings::{SavedSearch, Searches};
 use crate::words::{fill, search as words};
 use crate::work::{Ended, Outcome, WorkId, searching};
 
@@ -28,9 +28,12 @@ pub(super) struct Kept {
     /// The number of hits of each saved search, if counted.
     counts: BTreeMap<String, Option<usize>>,
     counting: BTreeMap<WorkId, String>,
-    /// The work that takes over the searches of this computer, and whether that has been done.
-    taking: Option<WorkId>,
-    taken: bool,
+    /// The work that takes over searches of this computer, and those that stay there.
+    taking: Option<(WorkId, Vec<SavedSearch>)>,
+    /// The searches that are left on this computer, once the others are taken over or forgotten.
+    left: Option<Vec<SavedSearch>>,
+    /// Whether the user is asked if searches of this computer replace those of the corpus.
+    taking_asks: bool,
 }
 
 impl Kept {
@@ -46,8 +49,8 @@ impl Kept {
             };
             self.counts.insert(query, total);
         }
-        if self.taking.take_if(|taking| *taking == id).is_some() {
-            self.taken = ended.is_ok();
+        if let Some((_, left)) = self.taking.take_if(|taking| taking.0 == id) {
+            self.left = ended.is_ok().then_some(left);
         }
     }
 
@@ -59,9 +62,9 @@ impl Kept {
         out: &mut Outbox,
         query: &str,
     ) -> Option<String> {
-        if std::mem::take(&mut self.taken) {
+        if let Some(saved) = self.left.take() {
             out.send(Command::Searches(Searches {
-                saved: Vec::new(),
+                saved,
                 ..seen.settings.searches.clone()
             }));
         }
@@ -212,17 +215,41 @@ impl Kept {
             seen.say(words::OF_THIS_COMPUTER),
             &[("n", &old.len())],
         ));
-        ui.horizontal(|ui| {
-            let take = ui.button(seen.say(words::TAKE_OVER));
-            if take.clicked() && !seen.is_running(self.taking) {
-                let all = old.iter().map(|it| KeptSearch {
-                    name: it.name.clone(),
-                    query: it.query.clone(),
-                });
-                self.taking = Some(out.work(searching::save_searches(all.collect())));
+        let (clashing, fresh) = clashing(old, &seen.snapshot.overview.searches);
+        let running = self.taking.as_ref().map(|taking| taking.0);
+        let free = !seen.is_running(running);
+        ui.horizontal_wrapped(|ui| {
+            if self.taking_asks && !clashing.is_empty() {
+                let names: Vec<&str> = clashing.iter().map(|it| it.name.as_str()).collect();
+                let names = [("names", &names.join(", ") as &dyn std::fmt::Display)];
+                ui.label(fill(seen.say(words::TAKE_REPLACES), &names));
+                if ui.button(seen.say(words::TAKE_ALL)).clicked() && free {
+                    self.take_over(old, Vec::new(), out);
+                }
+                let others = Button::new(seen.say(words::TAKE_OTHERS));
+                if ui.add_enabled(!fresh.is_empty(), others).clicked() && free {
+                    self.take_over(&fresh, clashing, out);
+                }
+            } else if ui.button(seen.say(words::TAKE_OVER)).clicked() && free {
+                self.taking_asks = !clashing.is_empty();
+                if !self.taking_asks {
+                    self.take_over(old, Vec::new(), out);
+                }
             }
-            self.taken |= ui.button(seen.say(words::LEAVE_BEHIND)).clicked();
+            if ui.button(seen.say(words::LEAVE_BEHIND)).clicked() {
+                self.left = Some(Vec::new());
+            }
         });
+    }
+
+    /// Saves searches of this computer in the corpus; the others stay on this computer.
+    fn take_over(&mut self, all: &[SavedSearch], left: Vec<SavedSearch>, out: &mut Outbox) {
+        let all = all.iter().map(|it| KeptSearch {
+            name: it.name.clone(),
+            query: it.query.clone(),
+        });
+        let id = out.work(searching::save_searches(all.collect()));
+        (self.taking, self.taking_asks) = (Some((id, left)), false);
     }
 
     fn count(&mut self, query: &str, out: &mut Outbox) {
@@ -233,6 +260,16 @@ impl Kept {
         let id = out.work(searching::search(query.to_owned(), only_counted()));
         self.counting.insert(id, query.to_owned());
     }
+}
+
+/// Returns the searches of this computer that would replace another one of the corpus or of themselves, and the others.
+fn clashing(old: &[SavedSearch], kept: &[KeptSearch]) -> (Vec<SavedSearch>, Vec<SavedSearch>) {
+    let kept = kept.iter().map(|it| (fold(&it.name), it.query.clone()));
+    let mut known: BTreeMap<String, String> = kept.collect();
+    old.iter().cloned().partition(|old| {
+        let first = known.entry(fold(old.name.trim()));
+        *first.or_insert_with(|| old.query.clone()) != old.query
+    })
 }
 
 /// Returns the options of a search that only counts hits.
@@ -249,4 +286,30 @@ fn named(ui: &mut Ui, sign: &str, name: &str) -> bool {
     let response = ui.small_button(sign).on_hover_text(name);
     response.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
     response.clicked()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn searches_of_this_computer_clash_with_others_of_their_names() {
+        let old = |name: &str, query: &str| SavedSearch {
+            name: name.to_owned(),
+            query: query.to_owned(),
+        };
+        let kept = KeptSearch {
+            name: "Menton".to_owned(),
+            query: "placement=chin".to_owned(),
+        };
+        let all = [
+            old("menton ", "placement=head"),
+            old("MENTON", "placement=chin"),
+            old("brefs", "duration<1s"),
+            old("Brefs", "duration<2s"),
+        ];
+        let (clashing, fresh) = clashing(&all, &[kept]);
+        assert_eq!(clashing, [all[0].clone(), all[3].clone()]);
+        assert_eq!(fresh, [all[1].clone(), all[2].clone()]);
+    }
 }
