@@ -169,7 +169,7 @@ pub use paths::paths_like;
 pub use picture::values as value_pictures;
 pub use picture::{Moving, Performance, Picture, PictureOptions, built_in_body, draw_clip};
 pub use progress::{Progress, Step, Unit, unheard};
-pub use propose::{ProposeOptions, ProposeScope, Proposed, proposed_for};
+pub use propose::{ProposeOptions, ProposeScope, Proposed, accepting_tier, proposed_for};
 pub use publish::{LeftOut, PublishOptions, Published};
 pub use recombine::{MadePart, NotationFinding, Recombination, TimedNote};
 pub use saved_search::{KeptSearch, kept_like};

@@ -81,6 +81,21 @@ pub fn proposed_for(tier: &str) -> Option<&str> {
     tier.strip_suffix(SUFFIX)
 }
 
+/// Returns the tier on which proposals are accepted, of all tiers of their recording: that of the same subject and hand, by
+/// preference the one with their name; `None` if it must be added.
+pub fn accepting_tier<'a>(
+    proposals: &tiers::TierRow,
+    all: impl Iterator<Item = &'a tiers::TierRow> + Clone,
+) -> Option<&'a tiers::TierRow> {
+    let name = proposed_for(&proposals.name);
+    let mut same = all.filter(|it| {
+        let alike = (&it.role, it.hand) == (&proposals.role, proposals.hand);
+        alike && proposed_for(&it.name).is_none()
+    });
+    let named = same.clone().find(|it| Some(it.name.as_str()) == name);
+    named.or_else(|| same.next())
+}
+
 /// Returns the name of the tier for proposals of a field, such as `configuration dominant (proposed)`.
 pub(crate) fn proposal_tier(field: &Field) -> String {
     let feature = field.feature.as_deref().map(|it| format!(".{it}"));
@@ -385,11 +400,7 @@ impl Corpus {
             };
             let recording = Name::Number(tier.recording_id);
             let all = tiers::tiers(connection, tier.recording_id)?;
-            let same = |it: &&tiers::TierRow| {
-                proposed_for(&it.name).is_none() && (&it.role, it.hand) == (&tier.role, tier.hand)
-            };
-            let known = all.iter().find(|it| same(it) && it.name == name);
-            let known = known.or_else(|| all.iter().find(same));
+            let known = accepting_tier(&tier, all.iter());
             let to = match known {
                 Some(known) => known.name.clone(),
                 None if all.iter().any(|it| it.name == name) => format!("{name} (accepted)"),

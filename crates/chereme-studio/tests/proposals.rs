@@ -5,14 +5,17 @@ mod common;
 use std::path::{Path, PathBuf};
 
 use chereme_corpus::{
-    AnnotationAction, Corpus, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier, Progress,
-    TierName, TierRole, starter_files, unheard,
+    AnnotationAction, Corpus, Hands, ImportOptions, ListFilter, ListKind, Moment, Name, NewTier,
+    Progress, TierName, TierRole, requests, starter_files, unheard,
 };
 use chereme_motion::Instant;
+use chereme_sign::HandRef;
 use chereme_studio::Options;
 use common::*;
-use eframe::egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable;
+use eframe::egui::accesskit::Role;
+use eframe::egui::{Event, Key, Modifiers};
+use egui_kittest::Node;
+use egui_kittest::kittest::{NodeT, Queryable};
 
 /// Returns a corpus with one recording in which only the gloss is annotated.
 fn uncoded(folder: &Path) -> PathBuf {
@@ -65,6 +68,14 @@ fn count(window: &Window<'_>, wanted: impl Fn(&str) -> bool) -> u64 {
     all.iter().filter(|it| wanted(&it.0)).map(|it| it.1).sum()
 }
 
+/// Presses a key, and waits for what it does.
+fn press(window: &mut Window<'_>, modifiers: Modifiers, key: Key) {
+    window.key_press_modifiers(modifiers, key);
+    window.run_steps(4);
+    idle(window);
+    window.run_steps(4);
+}
+
 #[test]
 fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -74,12 +85,6 @@ fn values_are_proposed_for_a_recording_reviewed_and_accepted() {
     });
     until(&mut window, "the corpus", |window| has(window, "bol"));
     idle(&mut window);
-    let press = |window: &mut Window<'_>, modifiers, key| {
-        window.key_press_modifiers(modifiers, key);
-        window.run_steps(4);
-        idle(window);
-        window.run_steps(4);
-    };
     press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
     until(&mut window, "the proposals", |window| {
         let mut named = window.query_all_by_label_contains("(proposed)");
@@ -128,12 +133,6 @@ fn enter_after_the_last_proposal_makes_nothing() {
     });
     until(&mut window, "the corpus", |window| has(window, "bol"));
     idle(&mut window);
-    let press = |window: &mut Window<'_>, modifiers, key| {
-        window.key_press_modifiers(modifiers, key);
-        window.run_steps(4);
-        idle(window);
-        window.run_steps(4);
-    };
     press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
     let proposed = |name: &str| name.ends_with("(proposed)");
     until(&mut window, "the proposals", |window| {
@@ -207,4 +206,122 @@ fn a_detector_is_chosen_from_the_list_and_its_proposals_are_one_step() {
     window.run_steps(4);
     idle(&mut window);
     assert_eq!(count(&window, strokes), 0, "{:?}", tiers(&window));
+}
+
+#[test]
+fn accepting_ends_at_proposals_whose_places_are_taken() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = uncoded(folder.path());
+    let mut corpus = Corpus::open(&path, "A").expect("opened");
+    let role = "movement.phase".parse().expect("a role");
+    let mut phase = NewTier::new(Name::Text("bol".into()), "Phase RH", role);
+    phase.hand = Some(Hands::One(HandRef::Right));
+    let tier = corpus.add_tier(&phase).expect("a tier").id;
+    let end = corpus.overview(1).expect("read").recordings[0]
+        .row
+        .duration_us;
+    let mut hear = unheard;
+    let mut progress = Progress::new(&mut hear);
+    let whole = [requests::add(tier, (0, end), "stroke")];
+    let added = corpus.annotate(&whole, &Default::default(), &mut progress);
+    added.expect("annotated");
+    let mut window = window(Options {
+        corpus: Some(path),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "bol"));
+    idle(&mut window);
+    let all = Modifiers::COMMAND | Modifiers::SHIFT | Modifiers::ALT;
+    press(&mut window, all, Key::P);
+    let strokes = window.get_by_label_contains("strokes: strokes of each wrist");
+    strokes.click();
+    let proposed = |name: &str| name.ends_with("(proposed)");
+    until(&mut window, "the strokes", |window| {
+        count(window, proposed) > 0
+    });
+    idle(&mut window);
+    let strokes = count(&window, proposed);
+    let right = |name: &str| name == "movement.phase right (proposed)";
+    let stuck = count(&window, right);
+    assert!(stuck > 0, "{:?}", tiers(&window));
+    press(&mut window, Modifiers::ALT, Key::N);
+    for _ in 0..strokes + 3 {
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        assert!(!contains(&window, "overlaps"), "{:?}", tiers(&window));
+    }
+    assert_eq!(count(&window, proposed), stuck, "{:?}", tiers(&window));
+    assert_eq!(count(&window, |name| name == "Phase RH"), 1);
+    let left = format!("Proposals that are left: {stuck}, the first at ");
+    assert!(contains(&window, &left));
+    assert!(contains(&window, "no room on: Phase RH"));
+    // Without that annotation they are accepted.
+    click(&mut window, "Tier Phase RH");
+    press(&mut window, Modifiers::ALT, Key::Home);
+    press(&mut window, Modifiers::NONE, Key::Delete);
+    press(&mut window, Modifiers::ALT, Key::N);
+    for _ in 0..stuck {
+        press(&mut window, Modifiers::NONE, Key::Enter);
+    }
+    assert_eq!(count(&window, proposed), 0, "{:?}", tiers(&window));
+    assert_eq!(count(&window, |name| name == "Phase RH"), stuck);
+    assert!(contains(&window, "All proposals of this recording"));
+}
+
+#[test]
+fn nothing_is_pasted_or_duplicated_onto_tiers_of_proposals() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = window(Options {
+        corpus: Some(uncoded(folder.path())),
+        ..options(folder.path())
+    });
+    until(&mut window, "the corpus", |window| has(window, "bol"));
+    idle(&mut window);
+    press(&mut window, Modifiers::COMMAND | Modifiers::ALT, Key::P);
+    let proposed = |name: &str| name.ends_with("(proposed)");
+    until(&mut window, "the proposals", |window| {
+        count(window, proposed) > 0
+    });
+    idle(&mut window);
+    let before = tiers(&window);
+    let refused = |window: &mut Window<'_>, what: &str| {
+        idle(window);
+        window.run_steps(3);
+        assert!(
+            contains(window, "A tier of proposals takes no annotations"),
+            "{what}"
+        );
+        assert_eq!(tiers(window), before, "{what}");
+        // The next one must say it again.
+        window.run_steps(600);
+        assert!(!contains(window, "A tier of proposals takes"), "{what}");
+    };
+    press(&mut window, Modifiers::ALT, Key::N);
+    let shift = Modifiers::COMMAND | Modifiers::SHIFT;
+    let later = "configuration dominant (proposed)\t1.2\t1.3\tB\n";
+    for (text, modifiers) in [
+        (later, Modifiers::COMMAND),
+        (
+            "X\t0.1\t0.2\tB\nconfiguration dominant (proposed)\t1.2\t1.3\tB",
+            Modifiers::COMMAND,
+        ),
+        ("1.2\t1.3\tB", Modifiers::COMMAND),
+        ("B", Modifiers::COMMAND),
+    ] {
+        window.event_modifiers(Event::Paste(text.into()), modifiers);
+        refused(&mut window, text);
+    }
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    refused(&mut window, "a proposal is duplicated");
+    // A gloss is duplicated onto the selected tier.
+    click(&mut window, "Tier gloss");
+    press(&mut window, Modifiers::ALT, Key::Home);
+    press(&mut window, Modifiers::COMMAND, Key::ArrowDown);
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    refused(&mut window, "a gloss is duplicated");
+    // The list of tiers to copy to has none of them.
+    press(&mut window, shift, Key::D);
+    assert!(contains(&window, "Copy to which tier?"));
+    let button = |it: &Node<'_>| it.accesskit_node().role() == Role::Button;
+    let mut named = window.query_all_by_label_contains("configuration dominant (proposed)");
+    assert!(!named.any(|it| button(&it)));
 }

@@ -67,7 +67,9 @@ texts! {
     KEYS_FORGOTTEN_REMEDY: "They were meant for the change that was refused. Type them again.", "Elles suivaient la modification refusée. Tapez-les à nouveau.";
     EDITS_ELSEWHERE: "This key changes annotations only where they are seen: {pane.timeline} gives the timeline the focus.", "Cette touche ne modifie les annotations que là où on les voit : {pane.timeline} donne le focus à la ligne de temps.";
     ALL_ACCEPTED: "All proposals of this recording are accepted.", "Toutes les propositions de cet enregistrement sont acceptées.";
-    HOLDS_PROPOSALS: "This tier holds proposals. Choose the tier of a person to annotate.", "Cet acteur porte des propositions. Choisissez l’acteur d’une personne pour annoter.";
+    LEFT_PROPOSALS: "Proposals that are left: {n}, the first at {time}. They have no room on: {tiers}", "Propositions qui restent : {n}, la première à {time}. Elles n’ont pas de place sur : {tiers}";
+    LEFT_PROPOSALS_REMEDY: "Annotations lie at their times there, or none of the tier above contains them. Delete or move one of both, and accept again.", "Des annotations y occupent leurs temps, ou aucune de l’acteur parent ne les contient. Supprimez ou déplacez l’une des deux, et acceptez à nouveau.";
+    HOLDS_PROPOSALS: "A tier of proposals takes no annotations of a person. Choose the tier of a person; proposals are accepted, or copied to it.", "Un acteur de propositions ne reçoit pas d’annotations d’une personne. Choisissez l’acteur d’une personne ; les propositions s’acceptent, ou s’y copient.";
     TO_LEFT: "left", "gauche";
     TO_RIGHT: "right", "droite";
     TO_UP: "up", "haut";

@@ -322,12 +322,10 @@ impl Drawing<'_, '_> {
             if !fits {
                 let chosen = items.iter().map(|item| item.id).collect();
                 let below = requests::has_below(scene.contents, &chosen);
-                self.hint(if below {
-                    words::HAS_BELOW
-                } else {
-                    words::NO_ROOM
-                });
-                return;
+                let tier = scene.tier_of(to);
+                let unfit = tier.and_then(|tier| tier_list::unfit(scene, tier, &items));
+                let why = unfit.filter(|_| !below).unwrap_or(words::HAS_BELOW);
+                return self.hint(why);
             }
             let asked = requests::to_tier(scene.contents, &items, to, true);
             let ghosts = items.iter().map(|item| Ghost::of(to, item)).collect();

@@ -137,6 +137,8 @@ struct Then {
     edit: bool,
     /// The annotations at their future places.
     ghosts: Vec<Ghost>,
+    /// The proposals that it accepts.
+    proposals: BTreeSet<i64>,
     /// The text typed for the change; restored if the change is refused.
     typed: Option<Editing>,
 }
@@ -378,9 +380,11 @@ impl Pane for Timeline {
                 self.asked.to_select = report.annotations.iter().copied().collect();
                 self.asked.to_edit = then.edit;
             }
+            Ok(_) if then.proposals.is_empty() => self.asked.refused.clear(),
             Ok(_) => {}
             Err(_) => {
                 self.asked.ghosts.clear();
+                self.asked.refused.extend(then.proposals);
                 if let Some(typed) = then.typed {
                     self.entry.refuse(typed);
                 }

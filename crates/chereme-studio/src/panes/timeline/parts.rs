@@ -112,6 +112,8 @@ pub(super) struct Asked {
     /// The work that makes proposals, and whether they are there and to be shown.
     pub(super) proposing: Option<WorkId>,
     pub(super) to_propose: bool,
+    /// Proposals that were refused when they were accepted, until annotations change.
+    pub(super) refused: BTreeSet<i64>,
 }
 
 impl Asked {

@@ -113,6 +113,10 @@ fn paste(
     };
     let here = here.then(|| scene.playhead());
     let mut plan = scene.plan(tier, rows, here);
+    let mut tiers = plan.adds.iter().filter_map(|it| scene.tier_of(it.tier));
+    if tiers.any(edit::holds_proposals) {
+        return Acted::Cannot(words::HOLDS_PROPOSALS);
+    }
     plan.odd.extend(odd);
     plan.odd.sort_by_key(|it| it.line);
     if plan.odd.is_empty() {
@@ -166,6 +170,9 @@ fn say(
     let Some(tier) = scene.tier() else {
         return Acted::Cannot(words::NEEDS_TIER);
     };
+    if edit::holds_proposals(tier) {
+        return Acted::Cannot(words::HOLDS_PROPOSALS);
+    }
     let shown = scene.seen.shown;
     let columns = &tier.annotations;
     let places: Vec<usize> = dragged::places(tier, &shown.annotations).collect();
@@ -246,6 +253,9 @@ fn duplicate(timeline: &mut Timeline, scene: &Scene<'_>, out: &mut Outbox) -> Ac
     };
     if own.len() < chosen.len() {
         return Acted::Cannot(words::ONE_TIER);
+    }
+    if edit::holds_proposals(tier) {
+        return Acted::Cannot(words::HOLDS_PROPOSALS);
     }
     let mut all = copied_rows(scene.contents, &chosen);
     let end = columns.ends[*last];

@@ -7,7 +7,7 @@ use eframe::egui::{
 };
 
 use super::dragged::{self, TierTiming};
-use super::edit::{Scene, no_room};
+use super::edit::{Scene, holds_proposals, no_room};
 use super::spans::Item;
 use super::{Then, Timeline};
 use crate::context::Outbox;
@@ -35,12 +35,14 @@ impl Choose {
     }
 }
 
-/// Returns the tiers whose names contain the typed text, without the tiers of the annotations themselves.
+/// Returns the tiers whose names contain the typed text, without those of proposals and of the annotations themselves.
 fn fitting<'a>(scene: &Scene<'a>, text: &str) -> Vec<&'a TierContents> {
     let chosen = &scene.seen.shown.annotations;
     let wanted = fold(text.trim());
     let fits = |tier: &&TierContents| {
-        fold(&tier.row.name).contains(&wanted) && dragged::places(tier, chosen).next().is_none()
+        fold(&tier.row.name).contains(&wanted)
+            && !holds_proposals(tier)
+            && dragged::places(tier, chosen).next().is_none()
     };
     scene.contents.tiers.iter().filter(fits).collect()
 }
@@ -161,6 +163,9 @@ pub(super) fn put(
 
 /// Returns the reason if annotations with these times cannot be put on a tier.
 pub(super) fn unfit(scene: &Scene<'_>, tier: &TierContents, items: &[Item]) -> Option<Text> {
+    if holds_proposals(tier) {
+        return Some(words::HOLDS_PROPOSALS);
+    }
     let listed = TierTiming::of(&tier.row) == TierTiming::Listed;
     let fits = |item: &Item| {
         let room = dragged::room(scene.contents, tier, (item.start, item.end));
