@@ -4,6 +4,8 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use chereme_corpus::words::Language;
+use chereme_corpus::words::history::operation_sentence;
 use chereme_corpus::{
     Audience, Corpus, ExportOptions, ExportWhat, ListFilter, ListKind, Name, Progress,
     SearchOptions, unheard,
@@ -108,6 +110,7 @@ fn corpora_of_earlier_versions_open_without_loss() {
         let more = kept + tracks + studies + consents;
         let operations = corpus.log(usize::MAX).expect("log").len();
         assert_eq!(operations, 6 + more, "version {version}");
+        histories(&corpus, version);
         corpus.redo().expect("what was undone is done again");
         corpus.undo().expect("and taken back");
         corpus.undo().expect("the made sign is taken back");
@@ -118,6 +121,25 @@ fn corpora_of_earlier_versions_open_without_loss() {
         }
         corpus.undo().expect("the import is taken back");
         assert!(corpus.undo().is_err(), "version {version}");
+    }
+}
+
+/// What operations did is known in all languages, also of those whose summary alone was stored.
+fn histories(corpus: &Corpus, version: usize) {
+    for row in corpus.log(usize::MAX).expect("log") {
+        let french = operation_sentence(&row.effect, Language::French);
+        let start = match row.name.as_str() {
+            "import" => "Importé : ",
+            "recombine" if row.summary.starts_with("LOB") => "LOB composé : BOL | reverse",
+            "recombine" => "TAHC composé : CHAT | reverse",
+            "keep search" => "Recherche enregistrée : chin",
+            "add tracks" => "Pistes ajoutées à bowl and cat : markers, face",
+            "change consent" => "Consentement modifié : bowl and cat",
+            "plan study" => "Étude préparée : bowls",
+            "import answers" => "Réponses importées : bowls, 1 participant",
+            other => other,
+        };
+        assert!(french.starts_with(&start), "version {version}: {french}");
     }
 }
 

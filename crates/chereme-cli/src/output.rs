@@ -1,5 +1,6 @@
 //! Writes results to the terminal: tables and sentences for people, one JSON document for programs, progress bars.
 
+use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 use std::ops::ControlFlow;
 use std::process::ExitCode;
@@ -9,7 +10,7 @@ use std::time::Duration;
 
 use anyhow::Result;
 use chereme_corpus::remedy::Remedy;
-use chereme_corpus::words::{Language, Text, counted_in, fill, trouble};
+use chereme_corpus::words::{Language, Text, counted_in, fill, filled_message, trouble};
 use chereme_corpus::{Step, Unit};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use serde::Serialize;
@@ -70,8 +71,19 @@ impl Output {
         self.line_as_is(&format!("{indent}{}", self.spoken(words)))
     }
 
+    /// Writes a message for people: its English form, and the values of its blanks in their order, which stand in it as
+    /// they are.
+    pub(crate) fn filled_line(&mut self, form: &str, values: &[&dyn Display]) -> Result<()> {
+        self.line_as_is(&filled_message(form, values, self.language))
+    }
+
+    /// Writes a text of the shared table with its blanks filled, in the language of the output.
+    pub(crate) fn text_line(&mut self, text: Text, values: &[(&str, &dyn Display)]) -> Result<()> {
+        self.line_as_is(&fill(self.say(text), values))
+    }
+
     /// Writes a line for people without a look into the table of messages, as for rows of a table.
-    fn line_as_is(&mut self, text: &str) -> Result<()> {
+    pub(crate) fn line_as_is(&mut self, text: &str) -> Result<()> {
         if !self.json {
             quiet(writeln!(self.text, "{}", table::shown(text, true)))?;
         }
@@ -96,7 +108,10 @@ impl Output {
         }
         if !table.left_out.is_empty() {
             let names = table.left_out.join(", ");
-            self.line(format!("no room for: {names}; --width 0 shows all columns"))?;
+            self.filled_line(
+                "no room for: {names}; --width 0 shows all columns",
+                &[&names],
+            )?;
         }
         Ok(())
     }
@@ -128,7 +143,7 @@ impl Output {
 
     fn remark(&mut self, form: Text, remark: &str) -> Result<()> {
         let what = self.spoken(remark);
-        self.line(fill(self.say(form), &[("what", &what)]))
+        self.text_line(form, &[("what", &what)])
     }
 
     /// Returns a text of the shared table in the language of the output.

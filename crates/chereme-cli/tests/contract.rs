@@ -401,6 +401,54 @@ fn the_command_line_speaks_french_if_requested() {
     );
 }
 
+/// Names that hold the words of sentences, and the marks of other lines: they stand in French lines as they are.
+#[test]
+fn names_stand_in_french_lines_as_they_are() {
+    let desk = Desk::new();
+    for ending in ["bvh", "eaf"] {
+        let to = desk.more().join(format!("talk in Paris to Lyon.{ending}"));
+        fs::copy(desk.inbox().join(format!("bowl.{ending}")), to).expect("copied");
+    }
+    let path = desk.corpus().display().to_string();
+    let said = |line: &str| {
+        let done = desk.run(&line.replace("@c", &path));
+        assert!(done.status.success(), "{line}: {}", text(&done.stderr));
+        text(&done.stdout)
+    };
+    said("import @c 'more/talk in Paris to Lyon.bvh' 'more/talk in Paris to Lyon.eaf'");
+    let done =
+        said("annotate @c --in 'talk in Paris to Lyon' add Gloss 1.6 1.8 'A in B' --language fr");
+    assert!(
+        done.starts_with("1 annotation ajoutée dans talk in Paris to Lyon"),
+        "{done}"
+    );
+    let done = said("recombine @c 'BOL | swap' --as 'note: X' --language fr");
+    assert!(done.contains("note: X enregistré"), "{done}");
+    let done = said("undo @c --language fr");
+    assert!(
+        done.starts_with("annulé : opération 4, note: X composé : "),
+        "{done}"
+    );
+    let log = said("log @c --language fr --width 0");
+    for part in [
+        "annulation de 4 : note: X composé : BOL | swap",
+        "1 annotation ajoutée dans talk in Paris to Lyon",
+        "Importé : 2 fichiers, de talk in Paris to Lyon.bvh à talk in Paris to Lyon.eaf",
+    ] {
+        assert!(log.contains(part), "{part}\n{log}");
+    }
+    let log: Value = serde_json::from_str(&said("log @c --language fr --json")).expect("JSON");
+    let row = &log["rows"][3];
+    assert_eq!(
+        (row["name"].as_str(), row["summary"].as_str()),
+        (
+            Some("import"),
+            Some("2 files from talk in Paris to Lyon.bvh to talk in Paris to Lyon.eaf")
+        )
+    );
+    assert_eq!(row["effect"]["last"], "talk in Paris to Lyon.eaf");
+}
+
 #[test]
 fn an_unknown_action_or_role_is_answered_with_the_known_ones() {
     let desk = Desk::new();

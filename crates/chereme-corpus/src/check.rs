@@ -26,6 +26,7 @@ use crate::progress::{Progress, Step, Unit};
 use crate::search::index::SearchIndex;
 use crate::tokens;
 use crate::track::{self, TrackKind, TrackRow};
+use crate::words::effect::OperationEffect;
 
 #[cfg(test)]
 mod tests;
@@ -160,7 +161,7 @@ impl Corpus {
     fn mend(&mut self, report: &mut CheckReport, progress: &mut Progress<'_>) -> Result<()> {
         if report.faults.iter().any(|fault| fault.kind == "tokens") {
             self.store
-                .operation_with_progress("mend", progress, |connection, progress| {
+                .operation_with_progress(progress, |connection, progress| {
                     let inventories = inventories::load(connection)?;
                     for recording in recordings::recordings(connection)? {
                         tokens::derive_with_progress(
@@ -171,7 +172,7 @@ impl Corpus {
                             progress,
                         )?;
                     }
-                    Ok(((), "tokens derived again".to_owned()))
+                    Ok(((), OperationEffect::Mend {}))
                 })?;
             self.store.seal_again(["token", "token_value"])?;
             report

@@ -18,6 +18,7 @@ use crate::db::{consents, edits, recordings};
 use crate::error::{Error, Result};
 use crate::merge;
 use crate::sources::notation::OWN_BODY;
+use crate::words::effect::OperationEffect;
 
 /// The people who may see something, from the fewest to the most.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -215,14 +216,13 @@ impl Corpus {
                 .at(day)
                 .advise("write it as 2026-11-27"));
         }
-        self.store.operation("change consent", |connection| {
+        self.store.operation(|connection| {
             let mut changed = Vec::new();
             for address in of {
                 changed.push(change_one(connection, address, change)?);
             }
-            let names: Vec<&str> = changed.iter().map(|it| it.name.as_str()).collect();
-            let summary = names.join(", ");
-            Ok((changed, summary))
+            let names = changed.iter().map(|row| row.name.clone()).collect();
+            Ok((changed, OperationEffect::ChangeConsent { names }))
         })
     }
 }

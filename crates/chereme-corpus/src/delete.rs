@@ -21,6 +21,7 @@ use crate::edit::sign_there;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::words;
+use crate::words::effect::OperationEffect;
 
 /// What happens to things that depend on a deleted one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -112,15 +113,15 @@ impl Corpus {
             return Ok(done);
         }
         self.store
-            .operation_with_progress("delete", progress, |connection, progress| {
+            .operation_with_progress(progress, |connection, progress| {
                 edits::defer_references(connection)?;
                 let plan = Plan::of(connection, what, options.dependents)?;
                 if plan.is_refused(options.dependents) {
                     return Err(plan.refusal(connection)?);
                 }
+                let names = plan.names(connection)?;
                 let done = plan.carry_out(connection, progress)?;
-                let summary = done.summary.clone();
-                Ok((done, summary))
+                Ok((done, OperationEffect::Delete { names }))
             })
     }
 }
@@ -226,7 +227,7 @@ impl Plan {
     }
 
     fn refusal(&self, connection: &Connection) -> Result<Error> {
-        let gone = self.names(connection)?;
+        let gone = self.names(connection)?.join(", ");
         if let Some(token) = self.annotated.first() {
             let place = place(token);
             let count = words::counted(self.annotated.len() as u64, "tokens");
@@ -252,7 +253,7 @@ impl Plan {
     }
 
     /// Returns the names of the recordings and the glosses of the signs that go.
-    fn names(&self, connection: &Connection) -> Result<String> {
+    fn names(&self, connection: &Connection) -> Result<Vec<String>> {
         let mut names = BTreeSet::new();
         for recording in &self.recordings {
             names.insert(recordings::recording(connection, *recording)?.name);
@@ -260,13 +261,13 @@ impl Plan {
         for sign in &self.signs {
             names.insert(edits::sign(connection, *sign)?.0);
         }
-        Ok(names.into_iter().collect::<Vec<_>>().join(", "))
+        Ok(names.into_iter().collect())
     }
 
     /// Returns what is to be deleted, without trying it.
     fn foreseen(&self, connection: &Connection) -> Result<Deleted> {
         let mut done = Deleted {
-            summary: self.names(connection)?,
+            summary: self.names(connection)?.join(", "),
             dependents: self.dependents(),
             ..Deleted::default()
         };

@@ -21,6 +21,7 @@ use crate::face::FaceCurves;
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::progress::{Progress, Step, Unit};
 use crate::propose::{ProposeScope, proposal_tier};
+use crate::words::effect::OperationEffect;
 
 /// The length of movement that is examined at once, in microseconds: two hours.
 const PIECE: i64 = 7_200_000_000;
@@ -172,7 +173,8 @@ impl Corpus {
             ..AnnotateOptions::default()
         };
         let work = (changes.changes.as_slice(), &options);
-        let report = self.annotate_with("propose", &changes.tiers, work, progress)?;
+        let report =
+            self.annotate_with(OperationEffect::Propose, &changes.tiers, work, progress)?;
         Ok(report.recordings)
     }
 }

@@ -13,7 +13,7 @@ use crate::db::signs::{self, TokenRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
-use crate::words::counted;
+use crate::words::effect::OperationEffect;
 
 /// A change of a recording; a missing field stays as it is.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -64,7 +64,7 @@ impl Corpus {
         recording: &Name,
         change: &RecordingChange,
     ) -> Result<RecordingRow> {
-        self.store.operation("change recording", |connection| {
+        self.store.operation(|connection| {
             let old = address::recording(connection, recording)?;
             let mut row = old.clone();
             if let Some(name) = &change.name {
@@ -92,8 +92,10 @@ impl Corpus {
             if row.signer_id != old.signer_id {
                 derive(connection, &[row.id])?;
             }
-            let summary = row.name.clone();
-            Ok((recordings::recording(connection, row.id)?, summary))
+            let effect = OperationEffect::ChangeRecording {
+                recording: row.name,
+            };
+            Ok((recordings::recording(connection, row.id)?, effect))
         })
     }
 
@@ -103,7 +105,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the signer does not exist, or the name is taken.
     pub fn change_signer(&mut self, signer: &Name, change: &SignerChange) -> Result<SignerRow> {
-        self.store.operation("change signer", |connection| {
+        self.store.operation(|connection| {
             let old = address::signer(connection, signer)?;
             let mut row = old.clone();
             if let Some(name) = &change.name {
@@ -130,8 +132,8 @@ impl Corpus {
                     &edits::recordings_of_signer(connection, row.id)?,
                 )?;
             }
-            let summary = row.name.clone();
-            Ok((row, summary))
+            let signer = row.name.clone();
+            Ok((row, OperationEffect::ChangeSigner { signer }))
         })
     }
 
@@ -140,11 +142,12 @@ impl Corpus {
     /// # Errors
     /// Fails if the address names no token.
     pub fn set_citation(&mut self, token: &Address) -> Result<TokenRow> {
-        self.store.operation("set citation", |connection| {
+        self.store.operation(|connection| {
             let row = address::token(connection, token)?;
             edits::cite(connection, row.sign_id, row.id)?;
-            let summary = format!("token:{} for {}", row.id, row.gloss);
-            Ok((signs::token(connection, row.id)?, summary))
+            let (token, gloss) = (row.id, row.gloss);
+            let effect = OperationEffect::SetCitation { token, gloss };
+            Ok((signs::token(connection, token)?, effect))
         })
     }
 
@@ -153,7 +156,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the sign or a translation to remove does not exist, or the gloss is another sign's.
     pub fn change_sign(&mut self, sign: &Name, change: &SignChange) -> Result<String> {
-        self.store.operation("change sign", |connection| {
+        self.store.operation(|connection| {
             let id = match sign {
                 Name::Number(id) => sign_there(connection, *id)?,
                 Name::Text(gloss) => address::sign(connection, gloss)?,
@@ -189,11 +192,12 @@ impl Corpus {
                     .at(gloss));
                 }
             }
-            let summary = match renamed {
-                0 => gloss.clone(),
-                count => format!("{old} to {gloss}, {}", counted(count as u64, "annotations")),
+            let effect = OperationEffect::ChangeSign {
+                sign: gloss.clone(),
+                former: (renamed > 0).then_some(old),
+                annotations: renamed as u64,
             };
-            Ok((gloss, summary))
+            Ok((gloss, effect))
         })
     }
 }

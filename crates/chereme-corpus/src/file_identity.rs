@@ -128,13 +128,12 @@ mod tests {
                 std::ops::ControlFlow::Continue(())
             };
             let mut progress = crate::Progress::new(&mut hear);
-            let done =
-                corpus
-                    .store
-                    .operation_with_progress("test", &mut progress, |connection, _| {
-                        crate::db::saved_searches::insert(connection, &query)?;
-                        Ok(((), "second search".to_owned()))
-                    });
+            let done = corpus
+                .store
+                .operation_with_progress(&mut progress, |connection, _| {
+                    crate::db::saved_searches::insert(connection, &query)?;
+                    Ok(((), crate::words::effect::OperationEffect::Mend {}))
+                });
             let Err(crate::Error::Displaced { rescued, .. }) = done else {
                 panic!("trial {trial}: {done:?}");
             };

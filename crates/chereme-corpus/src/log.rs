@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use chereme_motion::Instant;
 use chereme_sign::Remedy;
 use rusqlite::Connection;
 use serde::Serialize;
@@ -66,6 +65,9 @@ pub struct Changed {
     pub name: String,
     /// Its place, such as the tier and recording of an annotation.
     pub place: Option<String>,
+    /// The names in its place, the inner one first.
+    #[serde(skip)]
+    pub place_names: Vec<String>,
     /// The kind of change.
     pub kind: ChangeKind,
     /// Its columns that differ; for an added or removed row, all its contents.
@@ -242,7 +244,7 @@ fn changed(
         Some(id) => rows.name(connection, table, id),
         None => Ok(None),
     };
-    let place = match name_of_table {
+    let place_names = match name_of_table {
         "annotation" => {
             let tier = number("tier_id");
             let recording = match tier {
@@ -251,12 +253,12 @@ fn changed(
             };
             let (tier, recording) = (named("tier", tier)?, named("recording", recording)?);
             tier.zip(recording)
-                .map(|(tier, recording)| format!("{tier} of {recording}"))
+                .map_or_else(Vec::new, |(tier, recording)| vec![tier, recording])
         }
-        "tier" | "recipe" => named("recording", number("recording_id"))?,
-        "sign_text" => named("sign", number("sign_id"))?,
-        "inventory_value" => named("inventory", number("inventory_id"))?,
-        _ => None,
+        "tier" | "recipe" => Vec::from_iter(named("recording", number("recording_id"))?),
+        "sign_text" => Vec::from_iter(named("sign", number("sign_id"))?),
+        "inventory_value" => Vec::from_iter(named("inventory", number("inventory_id"))?),
+        _ => Vec::new(),
     };
     let mut fields = Vec::new();
     let both = [after, before].into_iter().filter_map(Value::as_object);
@@ -290,83 +292,18 @@ fn changed(
         what,
         id: image.get("id").and_then(Value::as_i64),
         name,
-        place,
+        place: (!place_names.is_empty()).then(|| place_names.join(" of ")),
+        place_names,
         kind,
         fields,
     })
 }
 
-impl Changed {
-    /// Returns the change as a line of text for the user.
-    #[must_use]
-    pub fn sentence(&self) -> String {
-        let own = |field: &&FieldChange| {
-            let same = ["tier", "recording", "sign", "inventory"].contains(&field.field.as_str());
-            !(same && self.place.is_some() && self.kind != ChangeKind::Changed)
-        };
-        let place = match &self.place {
-            Some(place) => format!(" on {place}"),
-            None => String::new(),
-        };
-        let subject = format!("{} {:?}{place}", self.what, self.name);
-        match self.kind {
-            ChangeKind::Added | ChangeKind::Removed => {
-                let word = if self.kind == ChangeKind::Added {
-                    "added"
-                } else {
-                    "removed"
-                };
-                let time = |name: &str| {
-                    let field = self.fields.iter().find(|it| it.field == name)?;
-                    field.from.as_i64().or_else(|| field.to.as_i64())
-                };
-                match time("start_us").zip(time("end_us")) {
-                    Some((start, end)) => format!(
-                        "{word} {subject}, {} to {}",
-                        Instant::from_micros(start),
-                        Instant::from_micros(end)
-                    ),
-                    None => format!("{word} {subject}"),
-                }
-            }
-            ChangeKind::Changed => {
-                let fields: Vec<String> = self
-                    .fields
-                    .iter()
-                    .filter(own)
-                    .map(FieldChange::text)
-                    .collect();
-                let fields = if fields.is_empty() {
-                    "its order or form".to_owned()
-                } else {
-                    fields.join("; ")
-                };
-                format!("{subject}: {fields}")
-            }
-        }
-    }
-}
-
-impl FieldChange {
-    fn text(&self) -> String {
-        let is_time = self.field.ends_with("_us");
-        let text = |value: &Value| match value {
-            Value::Null => "nothing".to_owned(),
-            Value::String(text) => format!("{text:?}"),
-            Value::Number(number) if is_time => {
-                let micros = number.as_i64().unwrap_or_default();
-                Instant::from_micros(micros).to_string()
-            }
-            other => other.to_string(),
-        };
-        let field = self.field.trim_end_matches("_us").replace('_', " ");
-        format!("{field} from {} to {}", text(&self.from), text(&self.to))
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::words::Language;
+    use crate::words::history::change_sentence;
     use crate::{
         AnnotateOptions, AnnotationAction, AnnotationName, Name, NewTier, Progress,
         RecordingChange, TierName, TierRole, unheard,
@@ -408,7 +345,8 @@ mod tests {
         let id = corpus.log(1).expect("log")[0].id;
         let detail = corpus.operation(id, 10).expect("detail");
         assert_eq!(detail.total, detail.changes.len() as u64);
-        detail.changes.iter().map(Changed::sentence).collect()
+        let sentence = |change| change_sentence(change, Language::English);
+        detail.changes.iter().map(sentence).collect()
     }
 
     #[test]

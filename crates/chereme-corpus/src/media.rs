@@ -11,6 +11,7 @@ use crate::address::{self, Name};
 use crate::db::recordings::{self, MediaTrackRow};
 use crate::error::{Error, Result};
 use crate::paths::legible;
+use crate::words::effect::OperationEffect;
 
 /// A change of a recording's media.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -44,7 +45,7 @@ impl Corpus {
         recording: &Name,
         change: &MediaChange,
     ) -> Result<Vec<MediaTrackRow>> {
-        self.store.operation("change media", |connection| {
+        self.store.operation(|connection| {
             let row = address::recording(connection, recording)?;
             let before = recordings::media_tracks(connection, row.id)?;
             let own = |id: i64| {
@@ -81,7 +82,8 @@ impl Corpus {
                 }
             }
             let after = recordings::media_tracks(connection, row.id)?;
-            Ok((after, row.name.clone()))
+            let recording = row.name.clone();
+            Ok((after, OperationEffect::ChangeMedia { recording }))
         })
     }
 

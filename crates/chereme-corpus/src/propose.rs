@@ -23,6 +23,7 @@ use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::search::{Hit, SearchOptions};
 use crate::transcribe::TranscribedFeature;
+use crate::words::effect::{AnnotationEffect, OperationEffect};
 
 /// Options of proposals: the components, and the tokens.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -236,7 +237,7 @@ impl Corpus {
             };
             let work = (changes.as_slice(), &options);
             report.recordings = self
-                .annotate_with("propose", &new, work, progress)?
+                .annotate_with(OperationEffect::Propose, &new, work, progress)?
                 .recordings;
         }
         Ok(report)
@@ -439,7 +440,11 @@ impl Corpus {
             );
         }
         let options = AnnotateOptions::default();
-        self.annotate_with("accept", &new, (&changes, &options), progress)
+        let accepted = |annotations: AnnotationEffect| OperationEffect::Accept {
+            count: annotations.count_removed(),
+            annotations,
+        };
+        self.annotate_with(accepted, &new, (&changes, &options), progress)
     }
 
     /// Returns the annotations to add, and the tiers for them that recordings lack.

@@ -38,6 +38,7 @@ use crate::inventories::{self, StoredInventory};
 use crate::movement::{self, BLOCK_FRAMES, MotionTrack};
 use crate::sources::CorpusSources;
 use crate::tokens;
+use crate::words::effect::OperationEffect;
 
 pub(crate) use draft::Drafted;
 pub use parts::MadePart;
@@ -161,9 +162,10 @@ impl Corpus {
                 .advise(Remedy::command("write --as GLOSS")));
         }
         let (resolved, made, recipe) = self.make(recipe)?;
-        let (recording, token, name) = self.store.operation("recombine", |connection| {
+        let (recording, token, name) = self.store.operation(|connection| {
             let stored = store(connection, &recipe, &resolved, &made, gloss)?;
-            Ok((stored, format!("{gloss} = {recipe}")))
+            let (gloss, recipe) = (gloss.to_owned(), recipe.to_string());
+            Ok((stored, OperationEffect::Recombine { gloss, recipe }))
         })?;
         let mut done = recombination(&recipe, gloss.to_owned(), made);
         (done.token, done.recording, done.name) = (Some(token), Some(recording), Some(name));

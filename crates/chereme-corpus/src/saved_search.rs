@@ -12,6 +12,7 @@ pub use crate::db::rows::KeptSearch;
 use crate::db::saved_searches as rows;
 use crate::error::{Error, Result};
 use crate::search::wrong;
+use crate::words::effect::OperationEffect;
 
 impl Corpus {
     /// Returns the saved searches, by name.
@@ -28,7 +29,7 @@ impl Corpus {
     /// Fails if a name is empty, a query cannot be understood, or searches would use each other in a circle; nothing is
     /// saved then.
     pub fn keep_searches(&mut self, searches: &[KeptSearch]) -> Result<()> {
-        self.store.operation("keep search", |connection| {
+        self.store.operation(|connection| {
             let mut names = Vec::with_capacity(searches.len());
             for search in searches {
                 let search = KeptSearch {
@@ -43,7 +44,7 @@ impl Corpus {
                 parsed(connection, &format!("@{}", search.name))?;
                 names.push(search.name);
             }
-            Ok(((), names.join(", ")))
+            Ok(((), OperationEffect::KeepSearch { names }))
         })
     }
 
@@ -69,7 +70,7 @@ impl Corpus {
     /// # Errors
     /// Fails if no search has that name, if another one uses it, or if the new name is empty or taken.
     pub fn rename_search(&mut self, from: &str, to: &str) -> Result<()> {
-        self.store.operation("rename search", |connection| {
+        self.store.operation(|connection| {
             let (id, old) = there(connection, from)?;
             let new = KeptSearch {
                 name: named(to)?,
@@ -86,7 +87,8 @@ impl Corpus {
             if new != old {
                 rows::update(connection, id, &new)?;
             }
-            Ok(((), format!("{} to {}", old.name, new.name)))
+            let (from, to) = (old.name, new.name);
+            Ok(((), OperationEffect::RenameSearch { from, to }))
         })
     }
 
@@ -95,12 +97,12 @@ impl Corpus {
     /// # Errors
     /// Fails if no search has that name, or if another one uses it.
     pub fn forget_search(&mut self, name: &str) -> Result<KeptSearch> {
-        self.store.operation("forget search", |connection| {
+        self.store.operation(|connection| {
             let (id, search) = there(connection, name)?;
             check_unused(connection, &search)?;
             rows::delete(connection, id)?;
-            let summary = search.name.clone();
-            Ok((search, summary))
+            let name = search.name.clone();
+            Ok((search, OperationEffect::ForgetSearch { name }))
         })
     }
 }

@@ -19,6 +19,7 @@ use crate::error::{Error, Result};
 use crate::movement::{ChannelGroup, MotionTrack};
 use crate::notation;
 use crate::progress::Progress;
+use crate::words::effect::OperationEffect;
 use again::Again;
 
 /// The longest stretch that is transcribed as one sign, in seconds.
@@ -261,7 +262,7 @@ impl Corpus {
         };
         let document = serde_json::to_string(&document)
             .map_err(|error| Error::wrong(format!("the notation cannot be kept: {error}")))?;
-        self.store.operation("transcribe", |connection| {
+        self.store.operation(|connection| {
             notations::set(
                 connection,
                 &NotationRow {
@@ -272,7 +273,8 @@ impl Corpus {
                     ..NotationRow::default()
                 },
             )?;
-            Ok(((), format!("token:{token} {}", written.gloss)))
+            let gloss = written.gloss.clone();
+            Ok(((), OperationEffect::Transcribe { token, gloss }))
         })?;
         Ok(written)
     }

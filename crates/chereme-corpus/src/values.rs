@@ -11,6 +11,7 @@ use crate::db::inventories as rows;
 use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
+use crate::words::effect::OperationEffect;
 
 /// The result of a merge of values.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
@@ -38,7 +39,7 @@ impl Corpus {
     /// Fails if the inventory does not exist or has the value already, or if one of the value's spellings means another
     /// value.
     pub fn add_value(&mut self, inventory: &str, value: &InventoryValue) -> Result<()> {
-        self.store.operation("add value", |connection| {
+        self.store.operation(|connection| {
             let stored = named(connection, inventory)?;
             let value = InventoryValue {
                 id: value.id.trim().to_owned(),
@@ -56,7 +57,10 @@ impl Corpus {
                     "`chereme list CORPUS values` lists the values",
                 )));
             }
-            let summary = format!("{} to {}", value.id, stored.inventory.id);
+            let effect = OperationEffect::AddValue {
+                value: value.id.clone(),
+                inventory: stored.inventory.id.clone(),
+            };
             let mut whole = stored.inventory;
             whole.values.push(value);
             whole.check().map_err(|error| {
@@ -65,7 +69,7 @@ impl Corpus {
             })?;
             inventories::store(connection, &whole)?;
             derive(connection, stored.id)?;
-            Ok(((), summary))
+            Ok(((), effect))
         })
     }
 
@@ -80,7 +84,7 @@ impl Corpus {
         from: &str,
         into: &str,
     ) -> Result<MergedValues> {
-        self.store.operation("merge values", |connection| {
+        self.store.operation(|connection| {
             let stored = named(connection, inventory)?;
             let gone = value(&stored.inventory, from)?.clone();
             let left = value(&stored.inventory, into)?.id.clone();
@@ -99,13 +103,17 @@ impl Corpus {
             rows::delete_value(connection, stored.id, &gone.id)?;
             inventories::store(connection, &merged(&stored.inventory, &gone, &left))?;
             derive(connection, stored.id)?;
-            let summary = format!("{} into {left} in {}", gone.id, stored.inventory.id);
+            let effect = OperationEffect::MergeValues {
+                value: gone.id,
+                into: left.clone(),
+                inventory: stored.inventory.id,
+            };
             let done = MergedValues {
                 value: left,
                 annotations,
                 entries,
             };
-            Ok((done, summary))
+            Ok((done, effect))
         })
     }
 }

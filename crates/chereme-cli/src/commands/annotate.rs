@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use chereme_corpus::paste::PasteOptions;
-use chereme_corpus::words::{fill, history as words, trouble};
+use chereme_corpus::words::history::annotation_sentence;
+use chereme_corpus::words::{fill, trouble};
 use chereme_corpus::{
     Address, AnnotateOptions, AnnotateReport, AnnotationAction, AnnotationChange, AnnotationName,
     Corpus, Error, Find, Mode, Moment, Name, Progress, ReportFinding, TierName, TimeUnit, Within,
@@ -394,8 +395,7 @@ fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<(
         .collect();
     let summary = match report.added + report.changed + report.removed {
         0 => output.spoken("nothing changed"),
-        _ => words::annotated(&report.summary, output.language())
-            .unwrap_or_else(|| report.summary.clone()),
+        _ => annotation_sentence(&report.effect, output.language()),
     };
     output.line(format!(
         "{}{}{}",
@@ -456,14 +456,20 @@ fn replace(
     drop(bar);
     for value in done.values.iter().take(NAMED) {
         let at = value.start_us as f64 / 1e6;
-        output.line(format!(
-            "  {} of {} at {at:.3} s: {:?} -> {:?}",
-            value.tier, value.recording, value.from, value.to
-        ))?;
+        output.filled_line(
+            "  {tier} of {recording} at {time} s: {from} -> {to}",
+            &[
+                &value.tier,
+                &value.recording,
+                &format_args!("{:.3}", at),
+                &format_args!("{:?}", value.from),
+                &format_args!("{:?}", value.to),
+            ],
+        )?;
     }
     let more = done.values.len().saturating_sub(NAMED);
     if more > 0 {
-        output.line(format!("  and {more} more"))?;
+        output.filled_line("  and {n} more", &[&more])?;
     }
     let word = if *dry_run { "would change" } else { "changed" };
     let count = output.counted(done.changed, "annotations");

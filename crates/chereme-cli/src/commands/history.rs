@@ -88,17 +88,14 @@ fn walk(output: &mut Output, times: usize, back: bool, corpus: &mut Corpus) -> R
                 words::ALL_REDONE
             };
             let count = output.counted(operations.len() as u64, "operations");
-            output.line(fill(
-                output.say(text),
-                &[("count", &count), ("asked", &times)],
-            ))?;
+            output.text_line(text, &[("count", &count), ("asked", &times)])?;
             break;
         }
         let operation = if back { corpus.undo()? } else { corpus.redo()? };
         let target = operation.target.unwrap_or(operation.id);
         let text = if back { words::UNDID } else { words::REDID };
         let what = what(&operation, language);
-        output.line(fill(output.say(text), &[("id", &target), ("what", &what)]))?;
+        output.text_line(text, &[("id", &target), ("what", &what)])?;
         operations.push(operation);
     }
     let left = left(corpus)?;
@@ -109,7 +106,7 @@ fn walk(output: &mut Output, times: usize, back: bool, corpus: &mut Corpus) -> R
 fn what(row: &OperationRow, language: Language) -> String {
     match language {
         Language::English => format!("{}: {}", row.name, row.summary),
-        Language::French => words::sentence(row, language),
+        Language::French => words::operation_sentence(&row.effect, language),
     }
 }
 
@@ -118,13 +115,9 @@ pub(super) fn log(cli: &Cli, args: &LogArgs, output: &mut Output) -> Result<()> 
     if let Some(id) = args.operation {
         let detail = corpus.operation(id, args.limit)?;
         let row = &detail.operation;
-        output.line(format!(
-            "{} {} {}: {}",
-            row.id,
-            row.at,
-            row.author,
-            what(row, output.language())
-        ))?;
+        let what = what(row, output.language());
+        let line = format!("{} {} {}: {what}", row.id, row.at, row.author);
+        output.line_as_is(&line)?;
         print_changes(&detail, output)?;
         return output.document(detail);
     }
@@ -133,7 +126,7 @@ pub(super) fn log(cli: &Cli, args: &LogArgs, output: &mut Output) -> Result<()> 
         let mut details = Vec::new();
         for row in &rows {
             let detail = corpus.operation(row.id, args.limit)?;
-            output.line(cells(row, output).join("  ").trim_end())?;
+            output.line_as_is(cells(row, output).join("  ").trim_end())?;
             print_changes(&detail, output)?;
             details.push(detail);
         }
@@ -155,14 +148,15 @@ pub(super) fn log(cli: &Cli, args: &LogArgs, output: &mut Output) -> Result<()> 
 
 fn print_changes(detail: &OperationDetail, output: &mut Output) -> Result<()> {
     for change in &detail.changes {
-        output.line(format!("  {}", change.sentence()))?;
+        let sentence = words::change_sentence(change, output.language());
+        output.line_as_is(&format!("  {sentence}"))?;
     }
     let more = detail.total - detail.changes.len() as u64;
     if more > 0 {
-        output.line(format!(
-            "  and {}; --limit shows more",
-            output.counted(more, "changes")
-        ))?;
+        output.filled_line(
+            "  and {n}; --limit shows more",
+            &[&output.counted(more, "changes")],
+        )?;
     }
     if detail.total == 0 {
         let tables: Vec<String> = detail
@@ -170,7 +164,7 @@ fn print_changes(detail: &OperationDetail, output: &mut Output) -> Result<()> {
             .iter()
             .map(|(table, count)| format!("{count} of {}", table.replace('_', " ")))
             .collect();
-        output.line(format!("  rows: {}", tables.join(", ")))?;
+        output.filled_line("  rows: {names}", &[&tables.join(", ")])?;
     }
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use anyhow::Result;
-use chereme_corpus::words::history::sentence;
+use chereme_corpus::words::history::operation_sentence;
 use chereme_corpus::words::{Language, counted_in};
 use chereme_corpus::{AttributeInfo, Info, ListFilter, ListKind, cell_text};
 
@@ -114,55 +114,60 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             .join(", ")
     };
     let counted = |(what, count): (&&str, &u64)| counted_in(*count, what, language);
-    output.line(format!(
-        "{}: {:.1} MB, schema version {}",
-        info.path.display(),
-        info.file_bytes as f64 / 1e6,
-        info.schema_version
-    ))?;
+    output.filled_line(
+        "{path}: {size} MB, schema version {version}",
+        &[
+            &info.path.display(),
+            &format_args!("{:.1}", info.file_bytes as f64 / 1e6),
+            &info.schema_version,
+        ],
+    )?;
     let all: Vec<String> = info.counts.iter().map(counted).collect();
-    output.line(format!("holds: {}", all.join(", ")))?;
+    output.filled_line("holds: {list}", &[&all.join(", ")])?;
     let frames = |count: u64| counted_in(count, "frames", language);
-    output.line(format!(
-        "movement: {:.2} hours, {}",
-        info.motion_hours,
-        frames(info.motion_frames)
-    ))?;
+    output.filled_line(
+        "movement: {hours} hours, {frames}",
+        &[
+            &format_args!("{:.2}", info.motion_hours),
+            &frames(info.motion_frames),
+        ],
+    )?;
     if let Some(it) = info.amounts.get("markers") {
-        output.line(format!(
-            "markers: {:.2} hours, {}",
-            it.hours,
-            frames(it.frames)
-        ))?;
+        output.filled_line(
+            "markers: {hours} hours, {frames}",
+            &[&format_args!("{:.2}", it.hours), &frames(it.frames)],
+        )?;
     }
     if let Some(it) = info.amounts.get("curves") {
-        output.line(format!(
-            "faces and other curves: {:.2} hours, {}",
-            it.hours,
-            frames(it.frames)
-        ))?;
+        output.filled_line(
+            "faces and other curves: {hours} hours, {frames}",
+            &[&format_args!("{:.2}", it.hours), &frames(it.frames)],
+        )?;
     }
-    output.line(format!("recordings: {}", counts(&info.recordings)))?;
-    output.line(format!("tracks: {}", counts(&info.tracks)))?;
-    output.line(format!("tokens: {}", counts(&info.tokens)))?;
-    output.line(format!("tiers: {}", counts(&info.tiers)))?;
+    output.filled_line("recordings: {list}", &[&counts(&info.recordings)])?;
+    output.filled_line("tracks: {list}", &[&counts(&info.tracks)])?;
+    output.filled_line("tokens: {list}", &[&counts(&info.tokens)])?;
+    output.filled_line("tiers: {list}", &[&counts(&info.tiers)])?;
     for signer in &info.signers {
         let hand = signer
             .handedness
             .as_deref()
             .unwrap_or("handedness not known");
-        output.line(format!(
-            "signer {}: {hand}, {}",
-            signer.name,
-            counted_in(signer.recordings, "recordings", language)
-        ))?;
+        output.filled_line(
+            "signer {name}: {hand}, {n}",
+            &[
+                &signer.name,
+                &output.spoken(hand),
+                &counted_in(signer.recordings, "recordings", language),
+            ],
+        )?;
     }
     let named: Vec<String> = info
         .inventories
         .iter()
         .map(|it| format!("{} ({})", it.id, it.values))
         .collect();
-    output.line(format!("inventories: {}", named.join(", ")))?;
+    output.filled_line("inventories: {list}", &[&named.join(", ")])?;
     if !info.attributes.is_empty() {
         let one = |it: &AttributeInfo| match (it.least, it.greatest) {
             (Some(least), Some(greatest)) => {
@@ -171,15 +176,15 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
             _ => format!("{} ({})", it.name, it.entries),
         };
         let named: Vec<String> = info.attributes.iter().map(one).collect();
-        output.line(format!("attributes of signs: {}", named.join(", ")))?;
+        output.filled_line("attributes of signs: {list}", &[&named.join(", ")])?;
     }
     if let Some(last) = &info.last_operation {
         let what = match language {
             Language::English => format!("{} {}", last.name, last.summary),
-            Language::French => sentence(last, language),
+            Language::French => operation_sentence(&last.effect, language),
         };
         let (at, who) = (&last.at, &last.author);
-        output.line(format!("last change: {at} by {who}: {what}"))?;
+        output.filled_line("last change: {at} by {who}: {what}", &[&at, &who, &what])?;
     }
     Ok(())
 }

@@ -20,6 +20,7 @@ use crate::db::tiers::{self as rows, AnnotationRow};
 use crate::error::{Error, Result};
 use crate::merge::keep_annotation;
 use crate::progress::Progress;
+use crate::words::effect::OperationEffect;
 
 /// The result of an adjudication.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
@@ -64,7 +65,7 @@ impl Corpus {
         let into = into.trim();
         let (all, mut report) = self.third_tiers(options, into)?;
         self.store
-            .operation_with_progress("adjudicate", progress, |connection, progress| {
+            .operation_with_progress(progress, |connection, progress| {
                 edits::defer_references(connection)?;
                 for third in &all {
                     let written = AnnotateOptions::default();
@@ -92,7 +93,8 @@ impl Corpus {
                     }
                 }
                 report.recordings = all.iter().map(|it| it.name.clone()).collect();
-                Ok((report, into.to_owned()))
+                let tier = into.to_owned();
+                Ok((report, OperationEffect::Adjudicate { tier }))
             })
     }
 

@@ -13,7 +13,7 @@ use crate::db::tiers::{self as rows, AnnotationRow, TierRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
-use crate::words::counted;
+use crate::words::effect::OperationEffect;
 
 /// The annotations to copy with a tier.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -37,7 +37,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the tier does not exist, or the recording has one of that name.
     pub fn copy_tier(&mut self, tier: &TierName, name: &str, copied: &Copied) -> Result<TierRow> {
-        self.store.operation("copy tier", |connection| {
+        self.store.operation(|connection| {
             let from = names::tier(connection, tier)?;
             let row = TierRow {
                 id: 0,
@@ -72,13 +72,13 @@ impl Corpus {
             let inventories = inventories::load_of(connection, from.recording_id)?;
             tokens::derive(connection, from.recording_id, None, &inventories)?;
             let recording = crate::db::recordings::recording(connection, from.recording_id)?.name;
-            let summary = format!(
-                "{:?} of {recording} as {:?} with {}",
-                from.name,
-                row.name,
-                counted(count, "annotations")
-            );
-            Ok((rows::tier(connection, id)?, summary))
+            let effect = OperationEffect::CopyTier {
+                tier: from.name,
+                recording,
+                copy: row.name,
+                annotations: count,
+            };
+            Ok((rows::tier(connection, id)?, effect))
         })
     }
 
@@ -88,10 +88,11 @@ impl Corpus {
     /// # Errors
     /// Fails if the recording does not exist, or one of the rows is no tier of it.
     pub fn order_tiers(&mut self, recording: &Name, order: &[i64]) -> Result<()> {
-        self.store.operation("order tiers", |connection| {
+        self.store.operation(|connection| {
             let recording = address::recording(connection, recording)?;
             put_in_order(connection, recording.id, order)?;
-            Ok(((), recording.name))
+            let recording = recording.name;
+            Ok(((), OperationEffect::OrderTiers { recording }))
         })
     }
 }

@@ -1,12 +1,14 @@
-//! The summary line of the history for a list of changes.
+//! What a list of changes did, for the history.
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use chereme_sign::{Component, TierRole};
+
 use super::AnnotateReport;
 use crate::db::tiers::TierRow;
-use crate::words::{Text, counted, deeds as words, fill};
+use crate::words::effect::{AnnotationDeed, AnnotationEffect, ValuedThing};
 
-/// Changes of annotations for which the summary has a specific sentence, such as a merge.
+/// Changes of annotations that the history names, such as a merge.
 #[derive(Debug, Default)]
 pub(super) struct Deeds {
     moved: BTreeSet<i64>,
@@ -14,9 +16,9 @@ pub(super) struct Deeds {
     split: BTreeSet<i64>,
     /// The number of merges; each removes an annotation.
     merges: u64,
-    /// Annotations that got a value, by the sentence for it and the value.
-    valued: BTreeMap<(&'static str, String), (Text, Text, BTreeSet<i64>)>,
-    /// Whether anything else changed; the summary then counts added, changed and removed annotations instead.
+    /// Annotations that got a value, by what it says something about, and the value.
+    valued: BTreeMap<(ValuedThing, String), BTreeSet<i64>>,
+    /// Whether anything else changed; the history then counts added, changed and removed annotations instead.
     other: bool,
 }
 
@@ -36,74 +38,80 @@ impl Deeds {
 
     /// Records that an annotation of a tier got a value.
     pub(super) fn says(&mut self, tier: &TierRow, annotation: i64, value: &str) {
-        let [one, several] = words::valued(&tier.role);
-        let key = (several.en, value.to_owned());
-        let known = self.valued.entry(key);
-        let known = known.or_insert_with(|| (one, several, BTreeSet::new()));
-        known.2.insert(annotation);
+        let key = (valued_thing(&tier.role), value.to_owned());
+        self.valued.entry(key).or_default().insert(annotation);
     }
 
     pub(super) fn does_else(&mut self) {
         self.other = true;
     }
 
-    /// Returns the summary.
-    pub(super) fn summary(&self, report: &AnnotateReport) -> String {
-        let named = self.named(report.removed);
-        let what = if self.other || named.is_empty() {
-            counts(report)
-        } else {
-            named
+    /// Returns what was done, and where.
+    pub(super) fn effect(&self, report: &AnnotateReport) -> AnnotationEffect {
+        let mut changes = match self.other {
+            true => Vec::new(),
+            false => self.named_deeds(report.removed),
         };
-        let place = match report.recordings.as_slice() {
-            [one] => one.clone(),
-            several => counted(several.len() as u64, "recordings"),
-        };
-        format!("{} in {place}", what.join(", "))
+        if changes.is_empty() {
+            changes = counted_deeds(report);
+        }
+        AnnotationEffect::from_changes(changes, &report.recordings)
     }
 
-    /// Returns the sentences; `removed` annotations were removed.
-    fn named(&self, removed: u64) -> Vec<String> {
-        let say = |(one, several): (Text, Text), all: &BTreeSet<i64>, value: &str| {
-            let text = if all.len() == 1 { one } else { several };
-            let text = fill(text.en, &[("n", &all.len())]);
-            (!all.is_empty()).then(|| fill(&text, &[("value", &value)]))
-        };
-        let none = BTreeSet::new();
+    /// Returns the named changes; `removed` annotations were removed.
+    fn named_deeds(&self, removed: u64) -> Vec<AnnotationDeed> {
+        use AnnotationDeed as Deed;
+        let counted = |all: &BTreeSet<i64>| Some(all.len() as u64).filter(|count| *count > 0);
         let mut valued = self.valued.iter();
         let valued = match (valued.next(), valued.next()) {
-            (Some(((_, value), (one, several, all))), None) => say((*one, *several), all, value),
-            (None, _) => say((words::ONE_SAYS, words::SAY), &none, ""),
+            (None, _) => None,
+            (Some(((of, value), all)), None) => Some(Deed::AnnotationsValued {
+                count: all.len() as u64,
+                of: *of,
+                value: value.clone(),
+            }),
             _ => {
-                let all = self.valued.values().flat_map(|it| &it.2).copied();
-                say((words::ONE_SAYS, words::SAY), &all.collect(), "")
+                let all: BTreeSet<i64> = self.valued.values().flatten().copied().collect();
+                counted(&all).map(|count| Deed::AnnotationsRevalued { count })
             }
         };
         // Annotations below a moved one that lie outside of it are removed with it.
         let removed = removed.checked_sub(self.merges).filter(|count| *count > 0);
         let removed = removed.filter(|_| !self.moved.is_empty());
-        let removed = removed.map(|count| format!("{count} removed"));
-        let parts = [
-            say((words::ONE_MOVED, words::MOVED), &self.moved, ""),
-            say((words::MERGED, words::MERGED), &self.merged, ""),
-            say((words::ONE_SPLIT, words::SPLIT), &self.split, ""),
-            removed,
-            // A value may contain any text, including the separator of these parts.
+        let deeds = [
+            counted(&self.moved).map(|count| Deed::AnnotationsMoved { count }),
+            counted(&self.merged).map(|count| Deed::AnnotationsMerged { count }),
+            counted(&self.split).map(|count| Deed::AnnotationsSplit { count }),
+            removed.map(|count| Deed::AnnotationsRemoved { count }),
             valued,
         ];
-        parts.into_iter().flatten().collect()
+        deeds.into_iter().flatten().collect()
     }
 }
 
-fn counts(report: &AnnotateReport) -> Vec<String> {
-    let counts = [
-        (report.added, "added"),
-        (report.changed, "changed"),
-        (report.removed, "removed"),
+fn counted_deeds(report: &AnnotateReport) -> Vec<AnnotationDeed> {
+    use AnnotationDeed as Deed;
+    let counted = |count: u64, deed: fn(u64) -> Deed| (count > 0).then(|| deed(count));
+    let deeds = [
+        counted(report.added, |count| Deed::AnnotationsAdded { count }),
+        counted(report.changed, |count| Deed::AnnotationsChanged { count }),
+        counted(report.removed, |count| Deed::AnnotationsRemoved { count }),
     ];
-    counts
-        .iter()
-        .filter(|(count, _)| *count > 0)
-        .map(|(count, what)| format!("{count} {what}"))
-        .collect()
+    deeds.into_iter().flatten().collect()
+}
+
+/// Returns what the annotations of tiers with this role say something about.
+fn valued_thing(role: &TierRole) -> ValuedThing {
+    let component = match role {
+        TierRole::Gloss => return ValuedThing::Gloss,
+        TierRole::Component { component, .. } => component,
+        _ => return ValuedThing::Annotation,
+    };
+    match component {
+        Component::Configuration => ValuedThing::Handshape,
+        Component::Placement => ValuedThing::Placement,
+        Component::Movement => ValuedThing::Movement,
+        Component::Orientation => ValuedThing::Orientation,
+        Component::NonManual => ValuedThing::Annotation,
+    }
 }

@@ -50,6 +50,7 @@ use crate::error::{Error, Result};
 use crate::inventories::StoredInventory;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
+use crate::words::effect::{AnnotationEffect, OperationEffect};
 use deeds::Deeds;
 use scope::Scope;
 
@@ -169,6 +170,9 @@ pub struct AnnotateReport {
     pub recordings: Vec<String>,
     /// A summary of the change, as in the history: `1 annotation changed to MINE in take 3`.
     pub summary: String,
+    /// What was changed, as in the history.
+    #[serde(skip)]
+    pub effect: AnnotationEffect,
 }
 
 impl Corpus {
@@ -197,48 +201,51 @@ impl Corpus {
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
         let work = |connection: &Connection, progress: &mut Progress<'_>| {
-            carry_out(connection, changes, options, faults, progress)
+            let report = carry_out(connection, changes, options, faults, progress)?;
+            let effect = OperationEffect::Annotate(report.effect.clone());
+            Ok((report, effect))
         };
-        self.store
-            .operation_with_progress("annotate", progress, work)
+        self.store.operation_with_progress(progress, work)
     }
 
-    /// Adds tiers and changes annotations as one operation of that name: all of it, or nothing.
+    /// Adds tiers and changes annotations as one operation, which `effect` describes: all of it, or nothing.
     pub(crate) fn annotate_with(
         &mut self,
-        name: &str,
+        effect: fn(AnnotationEffect) -> OperationEffect,
         new: &[NewTier],
         (changes, options): (&[AnnotationChange], &AnnotateOptions),
         progress: &mut Progress<'_>,
     ) -> Result<AnnotateReport> {
         let work = |connection: &Connection, progress: &mut Progress<'_>| {
-            write_tiers(connection, new, (changes, options), progress)
+            let report = write_tiers(connection, new, (changes, options), progress)?;
+            let effect = effect(report.effect.clone());
+            Ok((report, effect))
         };
-        self.store.operation_with_progress(name, progress, work)
+        self.store.operation_with_progress(progress, work)
     }
 }
 
-/// Adds tiers and changes annotations inside the caller's operation; returns the report, and the summary for the history.
+/// Adds tiers and changes annotations inside the caller's operation.
 pub(crate) fn write_tiers(
     connection: &Connection,
     new: &[NewTier],
     (changes, options): (&[AnnotationChange], &AnnotateOptions),
     progress: &mut Progress<'_>,
-) -> Result<(AnnotateReport, String)> {
+) -> Result<AnnotateReport> {
     for tier in new {
         tiers::insert(connection, tier)?;
     }
     carry_out(connection, changes, options, Vec::new(), progress)
 }
 
-/// Carries out changes of annotations; returns the report, and the summary for the history.
+/// Carries out changes of annotations.
 fn carry_out(
     connection: &Connection,
     changes: &[AnnotationChange],
     options: &AnnotateOptions,
     faults: Vec<Error>,
     progress: &mut Progress<'_>,
-) -> Result<(AnnotateReport, String)> {
+) -> Result<AnnotateReport> {
     let mut work = Work::new(connection, options)?;
     work.faults = faults;
     for (done, change) in changes.iter().enumerate() {
@@ -254,9 +261,9 @@ fn carry_out(
     }
     let deeds = std::mem::take(&mut work.deeds);
     let mut report = work.finish(changes.len(), progress)?;
-    report.summary = deeds.summary(&report);
-    let summary = report.summary.clone();
-    Ok((report, summary))
+    report.effect = deeds.effect(&report);
+    report.summary = report.effect.summary();
+    Ok(report)
 }
 
 /// Removes annotations with all below them, inside the caller's operation, and returns how many were removed.
@@ -270,7 +277,7 @@ pub(crate) fn remove_all(
     };
     let changes: Vec<AnnotationChange> = annotations.iter().map(remove).map(Into::into).collect();
     let options = AnnotateOptions::default();
-    let (report, _) = carry_out(connection, &changes, &options, Vec::new(), progress)?;
+    let report = carry_out(connection, &changes, &options, Vec::new(), progress)?;
     Ok(report.removed)
 }
 

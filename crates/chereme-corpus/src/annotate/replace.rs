@@ -20,6 +20,7 @@ use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
 use crate::progress::Progress;
+use crate::words::effect::OperationEffect;
 
 /// A text or pattern to look for in the values of annotations.
 #[derive(Debug, Clone)]
@@ -250,11 +251,9 @@ impl Corpus {
             }
             tried = Some(work.finish(changes.len(), progress)?);
             // An error rolls the attempt back.
-            Err::<((), String), _>(Error::Stopped)
+            Err::<((), OperationEffect), _>(Error::Stopped)
         };
-        let done = self
-            .store
-            .operation_with_progress("annotate", progress, carry);
+        let done = self.store.operation_with_progress(progress, carry);
         match (done, tried) {
             (_, Some(report)) => Ok(report),
             (Err(error), None) => Err(error),

@@ -11,6 +11,7 @@ use crate::address::{self, Name};
 use crate::db::recordings::{self, RecordingRow};
 use crate::db::tiers::{self as rows, TierRow};
 use crate::error::{Error, Result};
+use crate::words::effect::OperationEffect;
 
 /// The set of tiers to add to a recording.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -53,7 +54,7 @@ impl Corpus {
     /// Fails if a recording does not exist, if the model recording has no tiers, if all tiers exist already, or if a
     /// tier cannot be below its parent.
     pub fn add_tiers(&mut self, recording: &Name, scheme: &Scheme) -> Result<Vec<TierRow>> {
-        self.store.operation("add tiers", |connection| {
+        self.store.operation(|connection| {
             let recording = address::recording(connection, recording)?;
             let wanted = match scheme {
                 Scheme::Usual => usual(connection, &recording)?,
@@ -66,8 +67,8 @@ impl Corpus {
             };
             let below = matches!(scheme, Scheme::Below(_));
             let added = add(connection, &recording, wanted, below)?;
-            let summary = format!("{} to {}", added.len(), recording.name);
-            Ok((added, summary))
+            let (count, recording) = (added.len() as u64, recording.name);
+            Ok((added, OperationEffect::AddTiers { count, recording }))
         })
     }
 }

@@ -21,6 +21,7 @@ use crate::error::{Error, Result};
 use crate::inventories::{self, StoredInventory};
 use crate::tokens;
 use crate::words::counted;
+use crate::words::effect::OperationEffect;
 
 /// The source of a tier's values.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -115,10 +116,10 @@ impl Corpus {
     /// Fails if the name is taken, the parent tier or the inventory does not exist, or a tier with times of its own
     /// would be below one without.
     pub fn add_tier(&mut self, tier: &NewTier) -> Result<TierRow> {
-        self.store.operation("add tier", |connection| {
+        self.store.operation(|connection| {
             let (row, recording) = insert(connection, tier)?;
-            let summary = format!("{:?} to {recording}", row.name);
-            Ok((row, summary))
+            let tier = row.name.clone();
+            Ok((row, OperationEffect::AddTier { tier, recording }))
         })
     }
 
@@ -131,7 +132,7 @@ impl Corpus {
     /// Fails if the name is taken, the inventory does not exist or belongs to another component, the tier has values
     /// that the inventory lacks, or its annotations do not lie inside those of the parent tier.
     pub fn change_tier(&mut self, tier: &TierName, change: &TierChange) -> Result<TierRow> {
-        self.store.operation("change tier", |connection| {
+        self.store.operation(|connection| {
             let old = names::tier(connection, tier)?;
             let inventories = inventories::load(connection)?;
             let mut row = changed_row(connection, &old, change, &inventories)?;
@@ -151,8 +152,8 @@ impl Corpus {
                 row = rows::tier(connection, row.id)?;
             }
             let recording = recordings::recording(connection, recording)?.name;
-            let summary = format!("{:?} of {recording}", row.name);
-            Ok((row, summary))
+            let tier = row.name.clone();
+            Ok((row, OperationEffect::ChangeTier { tier, recording }))
         })
     }
 
@@ -161,7 +162,7 @@ impl Corpus {
     /// # Errors
     /// Fails if the tier does not exist.
     pub fn remove_tier(&mut self, tier: &TierName) -> Result<RemovedTiers> {
-        self.store.operation("remove tier", |connection| {
+        self.store.operation(|connection| {
             edits::defer_references(connection)?;
             let tier = names::tier(connection, tier)?;
             let all = rows::tiers(connection, tier.recording_id)?;
@@ -177,12 +178,12 @@ impl Corpus {
             let inventories = inventories::load_of(connection, tier.recording_id)?;
             tokens::derive(connection, tier.recording_id, None, &inventories)?;
             let recording = recordings::recording(connection, tier.recording_id)?.name;
-            let summary = format!(
-                "{} with {} from {recording}",
-                removed.tiers.join(", "),
-                counted(removed.annotations, "annotations")
-            );
-            Ok((removed, summary))
+            let effect = OperationEffect::RemoveTier {
+                tiers: removed.tiers.clone(),
+                annotations: removed.annotations,
+                recording,
+            };
+            Ok((removed, effect))
         })
     }
 }

@@ -24,6 +24,7 @@ use crate::db::tracks::{self, TrackKind};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{NewTrack, Track, store};
+use crate::words::effect::OperationEffect;
 
 /// Settings for restoring hidden markers: the takes to learn from, and the size of the model.
 #[derive(Debug, Clone)]
@@ -174,12 +175,11 @@ impl Corpus {
         if options.dry_run || new.iter().all(|(_, track)| track.is_none()) {
             return Ok(done);
         }
-        let summary = format!(
-            "{} places of {} recordings",
-            done.iter().map(|it| it.restored).sum::<u64>(),
-            done.len()
-        );
-        let names = self.store.operation("restore markers", |connection| {
+        let effect = OperationEffect::RestoreMarkers {
+            places: done.iter().map(|it| it.restored).sum(),
+            recordings: done.len() as u64,
+        };
+        let names = self.store.operation(|connection| {
             let mut names = Vec::new();
             for (recording, track) in &new {
                 let Some(track) = track else {
@@ -194,7 +194,7 @@ impl Corpus {
                 let id = store::store(connection, *recording, track)?;
                 names.push(Some(tracks::track(connection, id)?.name));
             }
-            Ok((names, summary))
+            Ok((names, effect))
         })?;
         for (report, name) in done.iter_mut().zip(names) {
             report.track = name;

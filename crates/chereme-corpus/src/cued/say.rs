@@ -30,6 +30,7 @@ use crate::progress::Progress;
 use crate::recombine::{measured_phases, store_phases};
 use crate::tokens;
 use crate::track::{NewTrack, Track, store};
+use crate::words::effect::OperationEffect;
 
 /// Weights of the selection costs.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -178,12 +179,13 @@ impl Corpus {
         let made = SentenceMovement::of(&book, &read, (how.phase, &measured), costs)?;
         let mut report = made.report(text, &book, &read);
         if let Some(gloss) = gloss {
-            let name = self.store.operation("cue from dictionary", |connection| {
+            let name = self.store.operation(|connection| {
                 let name = stored(connection, gloss, text, &made, (&book, &read))?;
-                Ok((
-                    name,
-                    format!("{gloss} from {} movements", report.pieces.len()),
-                ))
+                let effect = OperationEffect::CueFromDictionary {
+                    gloss: gloss.to_owned(),
+                    movements: report.pieces.len() as u64,
+                };
+                Ok((name, effect))
             })?;
             report.recording = Some(name);
         }

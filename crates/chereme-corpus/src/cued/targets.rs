@@ -21,6 +21,7 @@ use crate::db::edits;
 use crate::db::tiers::{self, AnnotationRow, TierRow};
 use crate::error::Result;
 use crate::picture;
+use crate::words::effect::OperationEffect;
 
 /// The targets of the keys of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -137,18 +138,17 @@ impl Corpus {
         if !store {
             return Ok(found);
         }
-        let summary = format!(
-            "{} keys of {} recordings",
-            found.iter().map(|it| it.keys.len()).sum::<usize>(),
-            found.len()
-        );
-        let names = self.store.operation("find targets", |connection| {
+        let effect = OperationEffect::FindTargets {
+            keys: found.iter().map(|it| it.keys.len() as u64).sum(),
+            recordings: found.len() as u64,
+        };
+        let names = self.store.operation(|connection| {
             edits::defer_references(connection)?;
             let mut names = Vec::new();
             for (own, found) in takes.iter().zip(&found) {
                 names.push(written(connection, own.take.row.id, &found.keys)?);
             }
-            Ok((names, summary))
+            Ok((names, effect))
         })?;
         for (found, names) in found.iter_mut().zip(names) {
             found.tiers = names;

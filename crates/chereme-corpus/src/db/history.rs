@@ -10,7 +10,7 @@ pub(super) mod tracked;
 use std::collections::BTreeMap;
 
 use chereme_sign::Remedy;
-use rusqlite::{Connection, OptionalExtension, params};
+use rusqlite::{Connection, OptionalExtension, Row, params};
 use serde::Serialize;
 use serde_json::Value;
 
@@ -18,6 +18,7 @@ use super::damaged;
 use super::seals::{self, SealChanges};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
+use crate::words::effect::OperationEffect;
 use tracked::{TRACKED, columns, from_image, row_image};
 
 pub(super) use tracked::record_changes;
@@ -62,8 +63,10 @@ pub struct OperationRow {
     pub target: Option<i64>,
     /// The kind of work, such as `import`.
     pub name: String,
-    /// A summary of the operation for people.
+    /// A summary of the operation in English.
     pub summary: String,
+    /// What it did, which can be described in every language.
+    pub effect: OperationEffect,
     /// The number of changed rows.
     pub changes: i64,
     /// Whether it is in effect, that is, not undone at present.
@@ -71,8 +74,8 @@ pub struct OperationRow {
 }
 
 /// Inserts the operation's row and returns its number, which the changeset will have too.
-pub(super) fn begin(connection: &Connection, author: &str, name: &str) -> Result<i64> {
-    insert_operation(connection, author, OperationKind::Do, None, name)
+pub(super) fn begin(connection: &Connection, author: &str) -> Result<i64> {
+    insert_operation(connection, author, OperationKind::Do, None)
 }
 
 fn insert_operation(
@@ -80,12 +83,11 @@ fn insert_operation(
     author: &str,
     kind: OperationKind,
     target: Option<i64>,
-    name: &str,
 ) -> Result<i64> {
     connection.execute(
         "INSERT INTO operation (at, author, kind, target, name, summary, changes)
-         VALUES (strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?1, ?2, ?3, ?4, '', 0)",
-        params![author, kind.name(), target, name],
+         VALUES (strftime('%Y-%m-%dT%H:%M:%SZ', 'now'), ?1, ?2, ?3, '', '', 0)",
+        params![author, kind.name(), target],
     )?;
     Ok(connection.last_insert_rowid())
 }
@@ -94,7 +96,7 @@ fn insert_operation(
 pub(super) fn finish(
     connection: &Connection,
     operation: i64,
-    summary: &str,
+    effect: &OperationEffect,
     progress: &mut Progress<'_>,
 ) -> Result<()> {
     let mut changes = 0i64;
@@ -137,9 +139,10 @@ pub(super) fn finish(
     if changes == 0 {
         connection.execute("DELETE FROM operation WHERE id = ?1", [operation])?;
     } else {
+        let (name, summary, effect) = effect.stored_texts();
         connection.execute(
-            "UPDATE operation SET summary = ?2, changes = ?3 WHERE id = ?1",
-            params![operation, summary, changes],
+            "UPDATE operation SET name = ?2, summary = ?3, effect = ?4, changes = ?5 WHERE id = ?1",
+            params![operation, name, summary, effect, changes],
         )?;
         seals.store(connection, operation)?;
     }
@@ -235,10 +238,10 @@ fn invert(
     (target, source): (i64, i64),
     progress: &mut Progress<'_>,
 ) -> Result<OperationRow> {
-    let (name, summary): (String, String) = connection.query_row(
-        "SELECT name, summary FROM operation WHERE id = ?1",
+    let (name, effect) = connection.query_row(
+        "SELECT name, summary, effect FROM operation WHERE id = ?1",
         [target],
-        |row| Ok((row.get(0)?, row.get(1)?)),
+        |row| Ok((row.get::<_, String>(0)?, read_effect(row, 0)?)),
     )?;
     seals::verify_changeset(connection, source)?;
     connection.execute_batch("PRAGMA defer_foreign_keys = ON;")?;
@@ -247,7 +250,7 @@ fn invert(
         [source],
         |row| row.get(0),
     )?;
-    let operation = insert_operation(connection, author, kind, Some(target), &name)?;
+    let operation = insert_operation(connection, author, kind, Some(target))?;
     let mut statements = BTreeMap::new();
     for (table, _) in TRACKED {
         statements.insert(table, Inverse::of(connection, table)?);
@@ -262,7 +265,7 @@ fn invert(
             step(progress, &name, done)?;
         }
     }
-    finish(connection, operation, &summary, progress)?;
+    finish(connection, operation, &effect, progress)?;
     log(connection, usize::MAX)?
         .into_iter()
         .find(|row| row.id == operation)
@@ -544,7 +547,7 @@ pub(crate) fn since(connection: &Connection, operation: i64) -> Result<Option<Ve
 pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<OperationRow>> {
     let (done, _) = stacks(connection)?;
     let mut statement = connection.prepare_cached(
-        "SELECT id, at, author, kind, target, name, summary, changes
+        "SELECT id, at, author, kind, target, name, summary, effect, changes
          FROM operation ORDER BY id DESC LIMIT ?1",
     )?;
     let rows = statement
@@ -563,7 +566,8 @@ pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<Operation
                 target: row.get(4)?,
                 name: row.get(5)?,
                 summary: row.get(6)?,
-                changes: row.get(7)?,
+                effect: read_effect(row, 5)?,
+                changes: row.get(8)?,
                 stands: kind != OperationKind::Do
                     || done.binary_search(&id).is_ok()
                     || done.contains(&id),
@@ -571,6 +575,17 @@ pub(crate) fn log(connection: &Connection, limit: usize) -> Result<Vec<Operation
         })?
         .collect::<rusqlite::Result<Vec<_>>>()?;
     Ok(rows)
+}
+
+/// Reads what an operation did from its name, its summary and its effect, the columns from `first` on.
+fn read_effect(row: &Row<'_>, first: usize) -> rusqlite::Result<OperationEffect> {
+    let (name, summary): (String, String) = (row.get(first)?, row.get(first + 1)?);
+    let json: Option<String> = row.get(first + 2)?;
+    Ok(OperationEffect::from_stored_texts(
+        &name,
+        &summary,
+        json.as_deref(),
+    ))
 }
 
 /// Reports changesets that are missing or cannot be read.

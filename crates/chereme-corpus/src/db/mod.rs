@@ -43,6 +43,7 @@ use crate::error::{Error, Result};
 use crate::file_identity::FileIdentity;
 use crate::progress::{Progress, Step, Unit, unheard};
 use crate::unfinished::Unfinished;
+use crate::words::effect::OperationEffect;
 
 pub(crate) use history::log as history_log;
 pub use history::{OperationKind, OperationRow};
@@ -143,31 +144,43 @@ impl<D: Derived> Store<D> {
         Ok((&self.connection, &self.index))
     }
 
-    /// Runs `work` as one named operation: all of it is stored, or nothing.
+    /// Runs `work` as one operation: all of it is stored, or nothing.
     ///
-    /// `work` returns its result and a summary for the user. Work that changes no row leaves no operation.
+    /// `work` returns its result and what it did. Work that changes no row leaves no operation.
     pub(crate) fn operation<T>(
+        &mut self,
+        work: impl FnOnce(&Connection) -> Result<(T, OperationEffect)>,
+    ) -> Result<T> {
+        let mut hear = unheard;
+        let progress = &mut Progress::new(&mut hear);
+        self.operation_with_progress(progress, |connection, _| work(connection))
+    }
+
+    /// Runs the work of a test as an operation with this name; the work returns its summary.
+    #[cfg(test)]
+    pub(crate) fn told_operation<T>(
         &mut self,
         name: &str,
         work: impl FnOnce(&Connection) -> Result<(T, String)>,
     ) -> Result<T> {
-        let mut hear = unheard;
-        let progress = &mut Progress::new(&mut hear);
-        self.operation_with_progress(name, progress, |connection, _| work(connection))
+        self.operation(|connection| {
+            let (value, summary) = work(connection)?;
+            let name = name.to_owned();
+            Ok((value, OperationEffect::Told { name, summary }))
+        })
     }
 
     /// Runs `work` as [`operation`](Self::operation) does, with progress reports; it can be stopped until everything is
     /// stored.
     pub(crate) fn operation_with_progress<T>(
         &mut self,
-        name: &str,
         progress: &mut Progress<'_>,
-        work: impl FnOnce(&Connection, &mut Progress<'_>) -> Result<(T, String)>,
+        work: impl FnOnce(&Connection, &mut Progress<'_>) -> Result<(T, OperationEffect)>,
     ) -> Result<T> {
         self.transact(progress, |connection, author, progress| {
-            let operation = history::begin(connection, author, name)?;
-            let (value, summary) = work(connection, progress)?;
-            history::finish(connection, operation, &summary, progress)?;
+            let operation = history::begin(connection, author)?;
+            let (value, effect) = work(connection, progress)?;
+            history::finish(connection, operation, &effect, progress)?;
             Ok(value)
         })
     }

@@ -19,7 +19,7 @@ use crate::unfinished::{Unfinished, remove_leftovers};
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
-const STEPS: [&str; 12] = [
+const STEPS: [&str; 13] = [
     include_str!("../../../../schema/sql/0001_corpus.sql"),
     include_str!("../../../../schema/sql/0002_notation.sql"),
     include_str!("../../../../schema/sql/0003_kept_search.sql"),
@@ -32,7 +32,11 @@ const STEPS: [&str; 12] = [
     include_str!("../../../../schema/sql/0010_studies.sql"),
     include_str!("../../../../schema/sql/0011_consent.sql"),
     include_str!("../../../../schema/sql/0012_checksums.sql"),
+    include_str!("../../../../schema/sql/0013_effect.sql"),
 ];
+
+/// The first version whose operations hold their effects, and not only a summary.
+const EFFECTS_STORED_FROM: i32 = 13;
 
 /// The schema version that this code writes.
 pub(crate) const SCHEMA_VERSION: i32 = STEPS.len() as i32;
@@ -431,6 +435,9 @@ fn take_steps(
     }
     if version < upgrade::PHASED_SINCE {
         upgrade::begin_before_final(&transaction)?;
+    }
+    if version < EFFECTS_STORED_FROM {
+        upgrade::read_old_summaries(&transaction)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
     roles::add_missing(&transaction)?;

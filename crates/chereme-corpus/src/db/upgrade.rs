@@ -11,6 +11,7 @@ use sha2::{Digest, Sha256};
 use super::history;
 use super::motion::hex;
 use crate::error::Result;
+use crate::words::old_effect::effect_of_summary;
 
 /// The name of tracks that hold the scalar curves of generated movement.
 pub(crate) const NONMANUALS: &str = "nonmanuals";
@@ -25,6 +26,24 @@ pub(super) fn after_step(connection: &Connection) -> Result<()> {
     if left > 0 {
         curves_become_tracks(connection)?;
         connection.execute_batch("DROP TABLE old_curve; DROP TABLE old_curve_block;")?;
+    }
+    Ok(())
+}
+
+/// Reads the summaries of operations that an older program stored without their effects.
+pub(super) fn read_old_summaries(connection: &Connection) -> Result<()> {
+    let mut statement = connection.prepare("SELECT id, name, summary FROM operation")?;
+    let rows = statement
+        .query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)))?
+        .collect::<rusqlite::Result<Vec<(i64, String, String)>>>()?;
+    for (id, name, summary) in rows {
+        if let Some(effect) = effect_of_summary(&name, &summary) {
+            let (_, _, json) = effect.stored_texts();
+            connection.execute(
+                "UPDATE operation SET effect = ?2 WHERE id = ?1",
+                params![id, json],
+            )?;
+        }
     }
     Ok(())
 }

@@ -12,6 +12,7 @@ use crate::Corpus;
 use crate::address::{self, Address, Name};
 use crate::db::tracks;
 use crate::error::{Error, Result};
+use crate::words::effect::OperationEffect;
 
 /// The fit of a take.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -156,14 +157,16 @@ impl Corpus {
         if store {
             let text = serde_json::to_string(&Kept { fit })
                 .map_err(|error| Error::wrong(error.to_string()))?;
-            self.store.operation("fit face", |connection| {
+            self.store.operation(|connection| {
                 tracks::set_layout(connection, track.id, &text)?;
-                let whose = row.signer.as_deref().unwrap_or(&row.name);
-                let summary = format!(
-                    "weights of {} fitted to {whose} on {}",
-                    track.name, row.name
-                );
-                Ok(((), summary))
+                let signer = row.signer.as_ref().unwrap_or(&row.name).clone();
+                let (track, recording) = (track.name.clone(), row.name.clone());
+                let effect = OperationEffect::FitFace {
+                    track,
+                    signer,
+                    recording,
+                };
+                Ok(((), effect))
             })?;
             report.stored = true;
         }

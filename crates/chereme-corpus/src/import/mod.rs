@@ -264,14 +264,14 @@ impl Corpus {
             };
             import.files(&files, &mut report, progress)?;
             import.warn_of_mapping(&mut report);
-            let summary = report.summary();
+            let effect = report.effect();
             if options.dry_run {
                 Err(Error::Stopped)
             } else {
-                Ok(((), summary))
+                Ok(((), effect))
             }
         };
-        match self.store.operation_with_progress("import", progress, run) {
+        match self.store.operation_with_progress(progress, run) {
             Err(Error::Stopped) if options.dry_run && report.complete => {}
             other => other?,
         }

@@ -12,6 +12,7 @@ use serde::Serialize;
 use super::understood::Understood;
 use crate::error::Error;
 use crate::paths::legible;
+use crate::words::effect::OperationEffect;
 
 /// The report of an import.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -351,7 +352,7 @@ impl ImportReport {
             .any(|file| file.status == FileStatus::Refused)
     }
 
-    pub(super) fn summary(&self) -> String {
+    pub(super) fn effect(&self) -> OperationEffect {
         let imported = self
             .files
             .iter()
@@ -359,10 +360,11 @@ impl ImportReport {
         let names: Vec<&str> = imported
             .filter_map(|file| Path::new(&file.path).file_name()?.to_str())
             .collect();
-        match names.as_slice() {
-            [] => "nothing new".to_owned(),
-            [one] => (*one).to_owned(),
-            [first, .., last] => format!("{} files from {first} to {last}", names.len()),
+        let name = |name: Option<&&str>| name.map_or_else(String::new, ToString::to_string);
+        OperationEffect::Import {
+            count: names.len() as u64,
+            first: name(names.first()),
+            last: name(names.last()),
         }
     }
 }

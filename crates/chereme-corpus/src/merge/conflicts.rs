@@ -20,6 +20,7 @@ use crate::db::{edits, recordings, signs};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
+use crate::words::effect::OperationEffect;
 
 /// The prefix of the keys under which conflicts are stored.
 const PREFIX: &str = "conflict:";
@@ -81,6 +82,17 @@ pub enum Decision {
     Theirs,
     /// Both stay: the other annotation goes on its own tier if there is room, otherwise on a tier next to it.
     Both,
+}
+
+impl Decision {
+    /// Returns its word, as the command line takes it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Mine => "mine",
+            Self::Theirs => "theirs",
+            Self::Both => "both",
+        }
+    }
 }
 
 /// A conflict as it is stored.
@@ -397,7 +409,7 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no such open conflict, or if both candidates cannot stand: only annotations can exist twice.
     pub fn decide(&mut self, numbers: &[usize], decision: Decision) -> Result<Vec<CorpusConflict>> {
-        self.store.operation("decide", |connection| {
+        self.store.operation(|connection| {
             edits::defer_references(connection)?;
             let mut known = BTreeMap::new();
             for number in numbers {
@@ -430,14 +442,14 @@ impl Corpus {
             rules::check(connection, &known)?;
             let all = list(connection)?.into_iter();
             let all: Vec<CorpusConflict> = all.filter(|it| numbers.contains(&it.number)).collect();
-            let word = match decision {
-                Decision::Mine => "mine",
-                Decision::Theirs => "theirs",
-                Decision::Both => "both",
-            };
-            let names: Vec<String> = numbers.iter().map(ToString::to_string).collect();
-            let summary = format!("conflict {}: {word}", names.join(", "));
-            Ok((all, summary))
+            let conflicts = numbers.to_vec();
+            Ok((
+                all,
+                OperationEffect::Decide {
+                    conflicts,
+                    decision,
+                },
+            ))
         })
     }
 }

@@ -33,7 +33,7 @@ use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 use crate::tokens;
-use crate::words::counted;
+use crate::words::effect::OperationEffect;
 
 /// The result of a merge of corpora.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize)]
@@ -103,7 +103,7 @@ impl Corpus {
             .map(|name| name.to_string_lossy().into_owned())
             .unwrap_or_default();
         self.store
-            .operation_with_progress("merge", progress, |connection, progress| {
+            .operation_with_progress(progress, |connection, progress| {
                 edits::defer_references(connection)?;
                 let there = theirs.store.read();
                 let (mine, theirs, back) = match &base {
@@ -141,8 +141,8 @@ impl Corpus {
                 work.all(progress)?;
                 db::note_merged(connection, there)?;
                 let report = work.report;
-                let summary = summary(&from, &report);
-                Ok((report, summary))
+                let effect = merge_effect(from, &report);
+                Ok((report, effect))
             })
     }
 }
@@ -156,11 +156,17 @@ fn no_beginning(other: &Path) -> Error {
         )
 }
 
-fn summary(from: &str, report: &MergeReport) -> String {
+fn merge_effect(from: String, report: &MergeReport) -> OperationEffect {
     let total = |all: &BTreeMap<String, u64>| all.values().sum::<u64>();
     let [added, changed, removed] = [&report.added, &report.changed, &report.removed].map(total);
-    let conflicts = counted(report.conflicts.len() as u64, "conflicts");
-    format!("{from}: {added} added, {changed} changed, {removed} removed, {conflicts}")
+    let conflicts = report.conflicts.len() as u64;
+    OperationEffect::Merge {
+        from,
+        added,
+        changed,
+        removed,
+        conflicts,
+    }
 }
 
 struct Work<'c> {

@@ -21,6 +21,7 @@ use crate::db::tiers::{self, AnnotationRow};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::tokens;
+use crate::words::effect::OperationEffect;
 
 impl Corpus {
     /// Evaluates a recipe and replaces an earlier generated sign by the result.
@@ -36,10 +37,10 @@ impl Corpus {
     pub fn recombine_again(&mut self, sign: &Address, recipe: &str) -> Result<Recombination> {
         let target = address::stretch(self.store.read(), sign)?.recording;
         let (resolved, made, recipe) = self.make(recipe)?;
-        let (token, gloss, beside) = self.store.operation("recombine again", |connection| {
+        let (token, gloss, beside) = self.store.operation(|connection| {
             let done = store_again(connection, &target, &recipe, &resolved, &made)?;
-            let summary = format!("{} = {recipe}", done.1);
-            Ok((done, summary))
+            let (gloss, recipe) = (done.1.clone(), recipe.to_string());
+            Ok((done, OperationEffect::RecombineAgain { gloss, recipe }))
         })?;
         let mut done = recombination(&recipe, gloss, made);
         (done.token, done.recording) = (Some(token), Some(target.id));

@@ -34,7 +34,10 @@ impl Sample {
 
     fn work<T>(&mut self, work: impl FnOnce(&rusqlite::Connection) -> Result<T>) -> T {
         let work = |connection: &rusqlite::Connection| Ok((work(connection)?, "work".to_owned()));
-        self.corpus.store.operation("test", work).expect("works")
+        self.corpus
+            .store
+            .told_operation("test", work)
+            .expect("works")
     }
 
     fn recording(&mut self, name: &str, signer: &str, handedness: &str) -> i64 {

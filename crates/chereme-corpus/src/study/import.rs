@@ -17,7 +17,7 @@ use crate::error::{Error, Result};
 use crate::import::{FileStatus, ReportFinding};
 use crate::paths::legible;
 use crate::progress::{Progress, Step, Unit};
-use crate::words::counted;
+use crate::words::effect::OperationEffect;
 
 /// The report of an import of answers.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
@@ -119,13 +119,13 @@ impl Corpus {
                 // An error rolls the attempt back.
                 return Err(Error::Stopped);
             }
-            let people = counted(report.added + report.replaced, "participants");
-            let summary = format!("{}, {people}", report.study);
-            Ok((report, summary))
+            let effect = OperationEffect::ImportAnswers {
+                study: report.study.clone(),
+                participants: (report.added + report.replaced) as u64,
+            };
+            Ok((report, effect))
         };
-        let done = self
-            .store
-            .operation_with_progress("import answers", progress, carry);
+        let done = self.store.operation_with_progress(progress, carry);
         tried.map_or(done, Ok)
     }
 

@@ -56,6 +56,7 @@ use crate::Corpus;
 use crate::db::studies as db;
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
+use crate::words::effect::OperationEffect;
 use answers::Participant;
 use plan::Plan;
 use stored::Stored;
@@ -126,7 +127,7 @@ impl Corpus {
         check::check(plan)?;
         let plan = &plan.clone().with_short_numbers();
         self.study_clips(plan, progress, |_, _| Ok(()))?;
-        let replaced = self.store.operation("plan study", |connection| {
+        let replaced = self.store.operation(|connection| {
             let replaced = match stored::study(connection, &plan.name)? {
                 Some(old) if db::participant_count(connection, old.id)? > 0 => {
                     let error = Error::wrong(format!(
@@ -147,7 +148,8 @@ impl Corpus {
                     false
                 }
             };
-            Ok((replaced, plan.name.clone()))
+            let study = plan.name.clone();
+            Ok((replaced, OperationEffect::PlanStudy { study }))
         })?;
         Ok(PlannedStudy {
             plan: plan.clone(),
@@ -190,10 +192,11 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no study of that name.
     pub fn delete_study(&mut self, name: &str) -> Result<()> {
-        self.store.operation("delete study", |connection| {
+        self.store.operation(|connection| {
             let Stored { id, plan, .. } = found(connection, name)?;
             db::delete(connection, id)?;
-            Ok(((), plan.name))
+            let study = plan.name;
+            Ok(((), OperationEffect::DeleteStudy { study }))
         })
     }
 
@@ -202,14 +205,15 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no such study, or no participant with that code.
     pub fn forget_participant(&mut self, study: &str, code: &str) -> Result<()> {
-        self.store.operation("forget participant", |connection| {
+        self.store.operation(|connection| {
             let Stored { id, plan, .. } = found(connection, study)?;
             let people = db::participants(connection, id, Some(code.trim()))?;
             let Some((row, _)) = people.first() else {
                 return Err(no_participant(code));
             };
             db::delete_participant(connection, *row)?;
-            Ok(((), plan.name))
+            let study = plan.name;
+            Ok(((), OperationEffect::ForgetParticipant { study }))
         })
     }
 

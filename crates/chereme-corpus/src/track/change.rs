@@ -8,6 +8,7 @@ use crate::address::{self, Name};
 use crate::db::recordings;
 use crate::db::tracks;
 use crate::error::{Error, Result};
+use crate::words::effect::{OperationEffect, TrackEffect};
 
 /// A change of a track.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -46,16 +47,18 @@ impl Corpus {
     /// # Errors
     /// Fails if there is no such recording, or a track has no frames.
     pub fn add_tracks(&mut self, recording: &Name, new: &[NewTrack]) -> Result<Vec<TrackRow>> {
-        self.store.operation("add tracks", |connection| {
+        self.store.operation(|connection| {
             let row = address::recording(connection, recording)?;
             let mut added = Vec::with_capacity(new.len());
             for track in new {
                 let id = store::store(connection, row.id, track)?;
                 added.push(tracks::track(connection, id)?);
             }
-            let names: Vec<&str> = added.iter().map(|track| track.name.as_str()).collect();
-            let summary = format!("{}: {}", row.name, names.join(", "));
-            Ok((added, summary))
+            let effect = OperationEffect::AddTracks {
+                recording: row.name,
+                tracks: added.iter().map(|track| track.name.clone()).collect(),
+            };
+            Ok((added, effect))
         })
     }
 
@@ -72,7 +75,7 @@ impl Corpus {
         track: &str,
         change: &TrackChange,
     ) -> Result<Vec<TrackRow>> {
-        self.store.operation("change track", |connection| {
+        self.store.operation(|connection| {
             let row = address::recording(connection, recording)?;
             let before = tracks::tracks(connection, row.id)?;
             let own = named(&before, &row.name, track)?;
@@ -96,18 +99,19 @@ impl Corpus {
                 }
                 TrackChange::Remove => tracks::remove(connection, own.id)?,
             }
-            let summary = match change {
-                TrackChange::Offset(micros) => {
-                    format!(
-                        "{}: {track} starts at {:.6} s",
-                        row.name,
-                        *micros as f64 / 1e6
-                    )
-                }
-                TrackChange::Name(name) => format!("{}: {track} is now {name}", row.name),
-                TrackChange::Remove => format!("{}: {track} removed", row.name),
+            let change = match change {
+                TrackChange::Offset(micros) => TrackEffect::Moved {
+                    seconds: format!("{:.6}", *micros as f64 / 1e6),
+                },
+                TrackChange::Name(name) => TrackEffect::Renamed { to: name.clone() },
+                TrackChange::Remove => TrackEffect::Removed,
             };
-            Ok((tracks::tracks(connection, row.id)?, summary))
+            let effect = OperationEffect::ChangeTrack {
+                recording: row.name,
+                track: track.to_owned(),
+                change,
+            };
+            Ok((tracks::tracks(connection, row.id)?, effect))
         })
     }
 }

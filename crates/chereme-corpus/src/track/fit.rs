@@ -17,6 +17,7 @@ use crate::db::{recordings, tracks};
 use crate::error::{Error, Result};
 use crate::movement;
 use crate::picture::built_in_body;
+use crate::words::effect::OperationEffect;
 
 /// The largest median distance between markers and a usable skeleton, in metres; a larger one gives a warning.
 const FAR: f64 = 0.02;
@@ -132,21 +133,19 @@ impl Corpus {
             return Ok(report);
         }
         let new = new_tracks(&fitted, markers.offset_us)?;
-        let names = self.store.operation("fit markers", |connection| {
+        let names = self.store.operation(|connection| {
             let mut names = Vec::new();
             for track in &new {
                 let id = store::store(connection, row.id, track)?;
                 names.push(tracks::track(connection, id)?.name);
             }
-            let of = options.subject.map(|it| format!(" of {it}"));
-            let summary = format!(
-                "{}: a skeleton fitted to {}{}, {:.0} mm",
-                row.name,
-                markers.name,
-                of.unwrap_or_default(),
-                report.median_mm
-            );
-            Ok((names, summary))
+            let effect = OperationEffect::FitMarkers {
+                recording: row.name.clone(),
+                markers: markers.name.clone(),
+                subject: options.subject.map(ToString::to_string),
+                millimetres: report.median_mm.round() as u64,
+            };
+            Ok((names, effect))
         })?;
         report.track = names.into_iter().next();
         Ok(report)

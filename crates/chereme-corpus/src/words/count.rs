@@ -1,69 +1,7 @@
 //! Counts of things as text, in singular and plural.
 
 use super::Language;
-
-/// Nouns as plural, singular, French singular and French plural.
-const NOUNS: [(&str, &str, &str, &str); 39] = [
-    ("annotations", "annotation", "annotation", "annotations"),
-    ("answers", "answer", "réponse", "réponses"),
-    ("attributes", "attribute", "attribut", "attributs"),
-    ("blocks", "block", "bloc", "blocs"),
-    ("changes", "change", "modification", "modifications"),
-    ("columns", "column", "colonne", "colonnes"),
-    ("conflicts", "conflict", "conflit", "conflits"),
-    ("curves", "curve", "courbe", "courbes"),
-    ("edits", "edit", "modification", "modifications"),
-    ("files", "file", "fichier", "fichiers"),
-    ("frames", "frame", "image", "images"),
-    (
-        "index documents",
-        "index document",
-        "document de l’index",
-        "documents de l’index",
-    ),
-    ("inventories", "inventory", "inventaire", "inventaires"),
-    ("joints", "joint", "articulation", "articulations"),
-    ("media", "media file", "média", "médias"),
-    ("notations", "notation", "notation", "notations"),
-    ("operations", "operation", "opération", "opérations"),
-    ("participants", "participant", "participant", "participants"),
-    (
-        "pairs of frames",
-        "pair of frames",
-        "paire d’images",
-        "paires d’images",
-    ),
-    (
-        "pairs of tiers",
-        "pair of tiers",
-        "paire d’acteurs",
-        "paires d’acteurs",
-    ),
-    ("points", "point", "point", "points"),
-    ("questions", "question", "question", "questions"),
-    ("recipes", "recipe", "recette", "recettes"),
-    (
-        "recordings",
-        "recording",
-        "enregistrement",
-        "enregistrements",
-    ),
-    ("rows", "row", "ligne", "lignes"),
-    ("samples", "sample", "échantillon", "échantillons"),
-    ("searches", "search", "recherche", "recherches"),
-    ("signers", "signer", "signeur", "signeurs"),
-    ("signs", "sign", "signe", "signes"),
-    ("skeletons", "skeleton", "squelette", "squelettes"),
-    ("studies", "study", "étude", "études"),
-    ("symbols", "symbol", "symbole", "symboles"),
-    ("tables", "table", "table", "tables"),
-    ("tiers", "tier", "acteur", "acteurs"),
-    ("times", "time", "fois", "fois"),
-    ("tokens", "token", "occurrence", "occurrences"),
-    ("units", "unit", "unité", "unités"),
-    ("values", "value", "valeur", "valeurs"),
-    ("tracks", "track", "piste", "pistes"),
-];
+use super::sentences::{filled_sentence, sentences};
 
 /// Returns `1 token`, `2 tokens`, with the noun given in its plural.
 #[must_use]
@@ -80,20 +18,20 @@ pub fn counted_in(count: u64, noun: &str, language: Language) -> String {
 /// Returns the form of a noun, given in its plural, that goes with a number.
 #[must_use]
 pub fn numbered(count: u64, noun: &str, language: Language) -> String {
-    let known = NOUNS.iter().find(|known| known.0 == noun);
-    match (known, language) {
-        // French uses the plural from two on.
-        (Some((_, _, one, many)), Language::French) => {
-            if count < 2 { one } else { many }.to_string()
-        }
-        (Some((many, one, ..)), Language::English) => {
-            if count == 1 { one } else { many }.to_string()
-        }
-        (None, _) if count != 1 => noun.to_owned(),
-        (None, _) => match noun.strip_suffix("ies") {
-            Some(stem) => format!("{stem}y"),
-            None => noun.strip_suffix('s').unwrap_or(noun).to_owned(),
-        },
+    let id = format!("noun-{}", noun.replace(' ', "-"));
+    let known = filled_sentence(&id, language, &|_| count.to_string());
+    known.unwrap_or_else(|| match noun.strip_suffix("ies") {
+        _ if count != 1 => noun.to_owned(),
+        Some(stem) => format!("{stem}y"),
+        None => noun.strip_suffix('s').unwrap_or(noun).to_owned(),
+    })
+}
+
+/// Returns whether a number of things takes the singular: French uses the plural from two on.
+pub(super) fn is_singular(count: u64, language: Language) -> bool {
+    match language {
+        Language::French => count < 2,
+        Language::English => count == 1,
     }
 }
 
@@ -101,8 +39,13 @@ pub fn numbered(count: u64, noun: &str, language: Language) -> String {
 pub(super) fn counted_in_french(text: &str) -> Option<String> {
     let (count, noun) = text.split_once(' ')?;
     let count: u64 = count.parse().ok()?;
-    let (plural, ..) = NOUNS.iter().find(|it| noun == it.0 || noun == it.1)?;
-    Some(counted_in(count, plural, Language::French))
+    let mut ids = sentences(Language::English).keys();
+    let plural = ids.find_map(|id| {
+        let plural = id.strip_prefix("noun-")?.replace('-', " ");
+        let fits = noun == plural || noun == numbered(1, &plural, Language::English);
+        fits.then_some(plural)
+    });
+    Some(counted_in(count, &plural?, Language::French))
 }
 
 #[cfg(test)]

@@ -47,8 +47,6 @@ texts! {
     PARTICIPANT: "participant of a study", "participant d’une étude";
     ANSWER: "answer of a study", "réponse d’une étude";
     ROW: "row", "ligne";
-    DID_MERGE: "Merged {what}", "Fusionné {what}";
-    DID_DECIDE: "Decided {what}", "Décidé {what}";
 }
 
 /// Returns the noun for an object of a merged kind, such as `annotation`.

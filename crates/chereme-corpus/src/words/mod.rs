@@ -11,6 +11,7 @@ pub use count::{counted, counted_in, numbered};
 pub use guides::guide;
 use messages::described_messages;
 pub use messages::message;
+use phrases::Phrase;
 
 /// Declares the texts of one part.
 macro_rules! texts {
@@ -25,8 +26,8 @@ macro_rules! texts {
 }
 
 mod count;
-pub mod deeds;
 pub mod deletion;
+pub mod effect;
 #[cfg(test)]
 #[path = "tests/french.rs"]
 mod french;
@@ -34,9 +35,11 @@ mod guides;
 pub mod history;
 pub mod merge;
 mod messages;
+pub(crate) mod old_effect;
 mod parts;
 mod phrases;
 pub mod reporting;
+mod sentences;
 pub mod trouble;
 
 /// Returns a text of the help of commands in `language`; nothing for English, or if the files of words lack it.
@@ -52,22 +55,46 @@ pub fn column_title(title: &str, language: Language) -> &str {
     known.unwrap_or(title)
 }
 
-/// Returns `text` with each `{name}` replaced by its value in `values`.
+/// Returns `text` with each `{name}` replaced by its value in `values`; a value may hold braces itself.
 #[must_use]
 pub fn fill(text: &str, values: &[(&str, &dyn Display)]) -> String {
-    let mut filled = text.to_owned();
-    for (name, value) in values {
-        filled = filled.replace(&format!("{{{name}}}"), &value.to_string());
+    Phrase::from_form(text).filled(|name| {
+        let known = values.iter().find(|(known, _)| *known == name);
+        known.map_or_else(|| format!("{{{name}}}"), |(_, value)| value.to_string())
+    })
+}
+
+/// Returns whether the files of words have a message with this English form in `language`.
+#[must_use]
+pub fn has_message(form: &str, language: Language) -> bool {
+    message_form(form, language).is_some()
+}
+
+fn message_form(form: &str, language: Language) -> Option<&'static str> {
+    phrases::phrase_book(language)?.fixed_text("message", form.trim_start())
+}
+
+/// Returns the message with this English form in `language`, its blanks filled by `values` in the order of the English
+/// form. The values are not looked at, so that people's names stay as they are; the message stays English if the files of
+/// words lack it.
+#[must_use]
+pub fn filled_message(form: &str, values: &[&dyn Display], language: Language) -> String {
+    let english = Phrase::from_form(form);
+    debug_assert_eq!(english.blank_names().count(), values.len(), "{form}");
+    let values: Vec<(&str, &dyn Display)> =
+        english.blank_names().zip(values.iter().copied()).collect();
+    let indent = &form[..form.len() - form.trim_start().len()];
+    match message_form(form, language) {
+        Some(other) => format!("{indent}{}", fill(other, &values)),
+        None => fill(form, &values),
     }
-    filled
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const TABLES: [&[(&str, Text)]; 6] = [
-        deeds::ALL,
+    const TABLES: [&[(&str, Text)]; 5] = [
         deletion::ALL,
         history::ALL,
         merge::ALL,
@@ -99,5 +126,19 @@ mod tests {
     #[test]
     fn blanks_are_filled() {
         assert_eq!(fill("{n} of {all}", &[("n", &2), ("all", &"x")]), "2 of x");
+        let names = [("n", &"{all}" as &dyn Display), ("all", &"{n}")];
+        assert_eq!(fill("{n} of {all}", &names), "{all} of {n}");
+    }
+
+    #[test]
+    fn names_in_filled_messages_stay_as_they_are() {
+        let form = "  wrote {path}, {size} KB";
+        for (language, line) in [
+            (Language::English, "  wrote talk, 3 KB to {size}.bvh, 5 KB"),
+            (Language::French, "  écrit : talk, 3 KB to {size}.bvh, 5 Ko"),
+        ] {
+            let name = "talk, 3 KB to {size}.bvh";
+            assert_eq!(filled_message(form, &[&name, &5], language), line);
+        }
     }
 }

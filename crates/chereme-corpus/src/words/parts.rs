@@ -6,6 +6,19 @@ pub(super) fn is_quoted(text: &str) -> bool {
     inner.is_some_and(|it| !it.replace("\\\"", "").contains('"'))
 }
 
+/// Returns where words first stand in a text outside of quotation marks; inside of them if they stand nowhere else.
+pub(super) fn find_unquoted(text: &str, words: &str) -> Option<usize> {
+    let (mut is_inside, mut is_escaped) = (false, false);
+    for (place, letter) in text.char_indices() {
+        if !is_inside && text[place..].starts_with(words) {
+            return Some(place);
+        }
+        is_inside ^= letter == '"' && !is_escaped;
+        is_escaped = letter == '\\' && !is_escaped;
+    }
+    text.find(words)
+}
+
 /// Returns a text of several lines, each put into words alone; nothing if that changes none.
 pub(super) fn by_lines(text: &str, say: &dyn Fn(&str) -> String) -> Option<String> {
     if !text.contains('\n') {
@@ -29,7 +42,8 @@ pub(super) fn placed_in_french(text: &str, say: &dyn Fn(&str) -> String) -> Opti
     if let Some(spans) = spans {
         return Some(spans.join(", "));
     }
-    if let Some((what, whole)) = text.split_once(" of ")
+    if let Some(place) = find_unquoted(text, " of ")
+        && let (what, whole) = (&text[..place], &text[place + " of ".len()..])
         && is_quoted(what)
         && (is_quoted(whole) || whole.starts_with("recording:"))
     {
@@ -77,6 +91,10 @@ mod tests {
             ),
             ("\"from 1s to 2s\" at 3.5s", "\"from 1s to 2s\" à 3.5s"),
             ("\"x\" at home", "\"x\" at home"),
+            (
+                "\"Gloss of \\\"x\\\"\" of \"bol of y\"",
+                "\"Gloss of \\\"x\\\"\" de \"bol of y\"",
+            ),
             (
                 "\"Gloss\" of recording:\"bol\"",
                 "\"Gloss\" de recording:\"bol\"",

@@ -1,7 +1,7 @@
 //! Phrases in English and in another language, from the files of words in `schema/words`.
 //!
 //! `schema/words/LANGUAGE/ROOM.ftl` holds the phrases of a room in Fluent's syntax. A phrase has the same id in all languages;
-//! the id begins with its kind: `message`, `help`, `title` or `guide`. Comments in the files are for translators.
+//! the id begins with its kind: `message`, `help`, `title`, `guide`, `history` or `noun`. Comments in the files are for translators.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -11,9 +11,10 @@ use fluent_syntax::parser;
 use include_dir::{Dir, include_dir};
 
 use super::Language;
+use super::parts::find_unquoted;
 
 /// The files of words, in one folder for each language.
-static WORD_FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../schema/words");
+pub(super) static WORD_FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../schema/words");
 
 /// A piece of a phrase.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -80,6 +81,14 @@ impl Phrase {
         self.0.iter().map(part).collect()
     }
 
+    /// Returns the names of its blanks in their order.
+    pub(super) fn blank_names(&self) -> impl Iterator<Item = &str> {
+        self.0.iter().filter_map(|part| match part {
+            PhrasePart::Blank(name) => Some(name.as_str()),
+            PhrasePart::Words(_) => None,
+        })
+    }
+
     /// Returns the phrase as a form, in which `{name}` is a variable part.
     pub(super) fn form(&self) -> String {
         self.filled(|name| format!("{{{name}}}"))
@@ -95,7 +104,7 @@ impl Phrase {
     }
 
     /// Returns the names of its blanks with what stands for them in `text`; nothing if `text` is not this phrase.
-    fn blanks_in<'t>(&self, text: &'t str) -> Option<Vec<(&str, &'t str)>> {
+    pub(super) fn blanks_in<'t>(&self, text: &'t str) -> Option<Vec<(&str, &'t str)>> {
         let has_lines =
             |part: &PhrasePart| matches!(part, PhrasePart::Words(words) if words.contains('\n'));
         // A phrase of one line fits no text of several, whose parts it would mix.
@@ -109,7 +118,7 @@ impl Phrase {
                 PhrasePart::Words(words) => rest = rest.strip_prefix(words.as_str())?,
                 PhrasePart::Blank(name) => {
                     let end = match self.0.get(index + 1) {
-                        Some(PhrasePart::Words(words)) => rest.find(words.as_str())?,
+                        Some(PhrasePart::Words(words)) => find_unquoted(rest, words)?,
                         _ => rest.len(),
                     };
                     values.push((name.as_str(), &rest[..end]));
@@ -150,7 +159,7 @@ impl PhrasePair {
 pub(super) struct PhraseBook {
     /// Messages, those with most words of their own first: a text that two of them fit is the one that says more of it.
     pub(super) messages: Vec<PhrasePair>,
-    /// Texts without variable parts by kind (`help`, `title` or `guide`) and English form.
+    /// The forms of texts by kind (`help`, `title`, `guide` or `message`) and English form.
     fixed_texts: BTreeMap<(String, String), String>,
 }
 
@@ -163,11 +172,13 @@ impl PhraseBook {
                 continue;
             };
             match id.split('-').next() {
-                Some("message") => book.messages.push(PhrasePair { english, other }),
+                Some("history" | "noun") => {}
                 Some(kind) => {
-                    let english = english.form();
-                    book.fixed_texts
-                        .insert((kind.to_owned(), english), other.form());
+                    let key = (kind.to_owned(), english.form());
+                    book.fixed_texts.insert(key, other.form());
+                    if kind == "message" {
+                        book.messages.push(PhrasePair { english, other });
+                    }
                 }
                 None => {}
             }
@@ -249,7 +260,7 @@ mod tests {
                     let before = ids.insert(message.id.name.to_owned(), path.clone());
                     assert!(before.is_none(), "{path}, {before:?}: {}", message.id.name);
                     let kind = message.id.name.split('-').next();
-                    let kinds = ["message", "help", "title", "guide"];
+                    let kinds = ["message", "help", "title", "guide", "history", "noun"];
                     assert!(kind.is_some_and(|kind| kinds.contains(&kind)), "{path}");
                 }
             }

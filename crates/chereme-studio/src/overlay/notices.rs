@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::path::PathBuf;
 
+use chereme_corpus::words::effect::OperationEffect;
 use chereme_corpus::{Cause, CheckReport, Deleted, Error, FitReport, Proposed};
 use eframe::egui::text::{LayoutJob, TextFormat, TextWrapping};
 use eframe::egui::{
@@ -196,7 +197,7 @@ impl Notices {
                 fill(words::NOTICE_STORED.of(language), &[("gloss", &made.gloss)])
             }
             Outcome::Deleted(done) => return self.deleted(done, language),
-            Outcome::Undone(row) => history::taken_back(row, language),
+            Outcome::Undone(row) => history::undo_sentence(&row.effect, language),
             Outcome::Walked { back, steps } => {
                 let text = if *back {
                     history::WALKED_BACK
@@ -209,7 +210,7 @@ impl Notices {
             Outcome::Fitted(report) => return self.fitted(report, language),
             Outcome::Checked(report) => return self.checked(report, language),
             Outcome::Redone(row) => {
-                let what = history::sentence(row, language);
+                let what = history::operation_sentence(&row.effect, language);
                 fill(history::DONE_AGAIN.of(language), &[("what", &what)])
             }
             Outcome::Exported(report) => super::export::written_text(report, language),
@@ -263,8 +264,11 @@ impl Notices {
         if done.dry_run {
             return;
         }
-        let values: [(&str, &dyn Display); 1] = [("what", &done.summary)];
-        self.hint(fill(history::DID_DELETE.of(language), &values));
+        let names = vec![done.summary.clone()];
+        self.hint(history::operation_sentence(
+            &OperationEffect::Delete { names },
+            language,
+        ));
         if let Some(notice) = self.all.last_mut() {
             notice.offers = vec![(Action::Undo.row().name, NoticeOffer::Do(Action::Undo))];
         }
@@ -483,6 +487,8 @@ fn with_code(style: &Style, text: &str, weak: bool) -> LayoutJob {
 
 #[cfg(test)]
 mod tests {
+    use chereme_corpus::words::effect::{AnnotationDeed, AnnotationEffect, ValuedThing};
+
     use super::*;
 
     #[test]
@@ -633,24 +639,33 @@ mod tests {
     #[test]
     fn notices_name_the_operation_and_differ_by_kind() {
         let mut notices = Notices::default();
-        let row = |summary: &str| chereme_corpus::OperationRow {
+        let row = |deed: AnnotationDeed| chereme_corpus::OperationRow {
             id: 2,
             at: "2026-01-02T03:04:05Z".into(),
             author: "A".into(),
             kind: chereme_corpus::OperationKind::Undo,
             target: Some(1),
             name: "annotate".into(),
-            summary: summary.into(),
+            summary: String::new(),
+            effect: OperationEffect::Annotate(AnnotationEffect {
+                changes: vec![deed],
+                recordings: 1,
+                recording: "Un".into(),
+            }),
             changes: 1,
             stands: true,
         };
         for (outcome, want) in [
             (
-                Outcome::Undone(row("3 removed in Un")),
+                Outcome::Undone(row(AnnotationDeed::AnnotationsRemoved { count: 3 })),
                 "3 annotations restored in Un",
             ),
             (
-                Outcome::Redone(row("3 handshapes changed to U in Un")),
+                Outcome::Redone(row(AnnotationDeed::AnnotationsValued {
+                    count: 3,
+                    of: ValuedThing::Handshape,
+                    value: "U".into(),
+                })),
                 "Done again: 3 handshapes changed to U in Un",
             ),
         ] {

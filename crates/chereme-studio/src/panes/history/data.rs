@@ -2,10 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use chereme_corpus::words::effect::OperationEffect;
 use chereme_corpus::{OperationKind, OperationRow};
 use chereme_sign::text::fold;
 
-use crate::words::history::{self as words, sentence};
+use crate::words::history::{self as words, operation_sentence, undo_sentence};
 use crate::words::{Language, fill};
 
 /// Whether an operation is in effect, and how many steps lead to it.
@@ -42,7 +43,7 @@ pub(crate) fn rows(
         let at = it.at.replace('T', " ");
         HistoryRow {
             id: it.id,
-            what: sentence(it, language),
+            what: operation_sentence(&it.effect, language),
             about: format!("{} · {}", at.trim_end_matches('Z'), it.author),
             standing: standings.get(&it.id).copied().unwrap_or(Standing::Gone),
         }
@@ -94,7 +95,7 @@ pub(crate) fn next(operations: &[OperationRow], back: bool, language: Language) 
         .into_iter()
         .find(|(_, standing)| *standing == wanted)?;
     let found = operations.iter().find(|it| it.id == id)?;
-    Some(sentence(found, language))
+    Some(operation_sentence(&found.effect, language))
 }
 
 /// Returns a sentence about the newest operation, if it is newer than those in `before`; for other people's work with
@@ -110,13 +111,18 @@ pub(crate) fn news(
     }
     if own {
         let reported_already = newest.kind != OperationKind::Do
-            || newest.name.starts_with("recombine")
-            || ["delete", "propose"].contains(&newest.name.as_str());
-        return (!reported_already).then(|| sentence(newest, language));
+            || matches!(
+                newest.effect,
+                OperationEffect::Recombine { .. }
+                    | OperationEffect::RecombineAgain { .. }
+                    | OperationEffect::Delete { .. }
+                    | OperationEffect::Propose(_)
+            );
+        return (!reported_already).then(|| operation_sentence(&newest.effect, language));
     }
     let what = match newest.kind {
-        OperationKind::Undo => words::taken_back(newest, language),
-        _ => sentence(newest, language),
+        OperationKind::Undo => undo_sentence(&newest.effect, language),
+        _ => operation_sentence(&newest.effect, language),
     };
     let values: [(&str, &dyn std::fmt::Display); 2] = [("who", &newest.author), ("what", &what)];
     Some(fill(words::BY_OTHERS.of(language), &values))
@@ -132,14 +138,23 @@ pub(crate) fn standing(operations: &[OperationRow]) -> usize {
 
 #[cfg(test)]
 mod tests {
+    use chereme_corpus::words::effect::{AnnotationDeed, AnnotationEffect, ValuedThing};
+
     use super::*;
+
+    fn import(file: &str) -> OperationEffect {
+        OperationEffect::Import {
+            count: 1,
+            first: file.into(),
+            last: file.into(),
+        }
+    }
 
     fn row(
         id: i64,
         kind: OperationKind,
         target: Option<i64>,
-        name: &str,
-        summary: &str,
+        effect: &OperationEffect,
     ) -> OperationRow {
         OperationRow {
             id,
@@ -147,8 +162,9 @@ mod tests {
             author: "Zoé".into(),
             kind,
             target,
-            name: name.into(),
-            summary: summary.into(),
+            name: String::new(),
+            summary: String::new(),
+            effect: effect.clone(),
             changes: 1,
             stands: true,
         }
@@ -156,9 +172,10 @@ mod tests {
 
     #[test]
     fn step_counts_lead_to_every_reachable_operation() {
-        let own = |id| row(id, OperationKind::Do, None, "import", "a");
-        let undo = |id, of| row(id, OperationKind::Undo, Some(of), "import", "a");
-        let redo = |id, of| row(id, OperationKind::Redo, Some(of), "import", "a");
+        let import = import("a");
+        let own = |id| row(id, OperationKind::Do, None, &import);
+        let undo = |id, of| row(id, OperationKind::Undo, Some(of), &import);
+        let redo = |id, of| row(id, OperationKind::Redo, Some(of), &import);
         let mut all = vec![own(1), own(2), own(3), undo(4, 3), undo(5, 2), redo(6, 2)];
         all.reverse();
         let of = |all: &[OperationRow]| -> Vec<(i64, Standing)> {
@@ -179,18 +196,30 @@ mod tests {
 
     #[test]
     fn new_operations_are_named_with_the_other_author() {
-        let before = [row(1, OperationKind::Do, None, "import", "a.bvh")];
+        let before = [row(1, OperationKind::Do, None, &import("a.bvh"))];
         let summary = "3 handshapes changed to U in Un";
-        let did = row(2, OperationKind::Do, None, "annotate", summary);
-        let undid = row(
-            3,
-            OperationKind::Undo,
-            Some(2),
-            "annotate",
-            "2 removed in Un",
-        );
-        let made = row(2, OperationKind::Do, None, "recombine", "A = B");
-        let proposed = row(2, OperationKind::Do, None, "propose", "3 added in Un");
+        let changed = |deed| AnnotationEffect {
+            changes: vec![deed],
+            recordings: 1,
+            recording: "Un".into(),
+        };
+        let did = OperationEffect::Annotate(changed(AnnotationDeed::AnnotationsValued {
+            count: 3,
+            of: ValuedThing::Handshape,
+            value: "U".into(),
+        }));
+        let did = row(2, OperationKind::Do, None, &did);
+        let removed = changed(AnnotationDeed::AnnotationsRemoved { count: 2 });
+        let removed = OperationEffect::Annotate(removed);
+        let undid = row(3, OperationKind::Undo, Some(2), &removed);
+        let made = OperationEffect::Recombine {
+            gloss: "A".into(),
+            recipe: "B".into(),
+        };
+        let made = row(2, OperationKind::Do, None, &made);
+        let proposed = changed(AnnotationDeed::AnnotationsAdded { count: 3 });
+        let proposed = OperationEffect::Propose(proposed);
+        let proposed = row(2, OperationKind::Do, None, &proposed);
         let said = |now: &OperationRow, own| {
             let now = [now.clone(), before[0].clone()];
             news([&before, &now], own, Language::English)
@@ -212,8 +241,8 @@ mod tests {
     #[test]
     fn the_list_is_filtered_by_author_and_operation() {
         let all = [
-            row(2, OperationKind::Do, None, "import", "chat.bvh"),
-            row(1, OperationKind::Do, None, "import", "bol.bvh"),
+            row(2, OperationKind::Do, None, &import("chat.bvh")),
+            row(1, OperationKind::Do, None, &import("bol.bvh")),
         ];
         let ids = |filter: &str| -> Vec<i64> {
             rows(&all, Language::English, filter)

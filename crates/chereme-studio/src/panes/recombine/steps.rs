@@ -99,6 +99,8 @@ fn go_over<T>(from: &mut Vec<UndoStep<T>>, to: &mut Vec<UndoStep<T>>) {
 
 #[cfg(test)]
 mod tests {
+    use chereme_corpus::words::effect::OperationEffect;
+
     use super::*;
 
     /// Returns operations of these kinds, the newest first; ids count up from 1.
@@ -111,6 +113,7 @@ mod tests {
             target: None,
             name: String::new(),
             summary: String::new(),
+            effect: OperationEffect::Mend {},
             changes: 1,
             stands: true,
         };

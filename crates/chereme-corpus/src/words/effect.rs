@@ -1,0 +1,462 @@
+//! What operations of the history did, as values: stored with their names and counts, and described in any language.
+
+use serde::{Deserialize, Serialize};
+use serde_json::Value;
+
+use super::count::counted;
+use crate::merge::Decision;
+
+/// What an operation did. It is stored as JSON, whose `does` is the name of the operation with hyphens for its spaces.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "does", rename_all = "kebab-case")]
+#[expect(
+    missing_docs,
+    reason = "fields are named like the things whose names or counts they hold"
+)]
+pub enum OperationEffect {
+    /// Files were imported or updated: how many, and the first and last of them by name.
+    Import {
+        count: u64,
+        first: String,
+        last: String,
+    },
+    /// A sign was made by a recipe.
+    Recombine { gloss: String, recipe: String },
+    /// A sign was made again by another recipe.
+    RecombineAgain { gloss: String, recipe: String },
+    /// Annotations were changed.
+    Annotate(AnnotationEffect),
+    /// Annotations were proposed from movement.
+    Propose(AnnotationEffect),
+    /// Proposed values became annotations.
+    Accept {
+        count: u64,
+        #[serde(flatten)]
+        annotations: AnnotationEffect,
+    },
+    /// A third tier was made of the tiers of two annotators.
+    Adjudicate { tier: String },
+    /// A tier was added to a recording.
+    AddTier { tier: String, recording: String },
+    /// A tier of a recording got other properties.
+    ChangeTier { tier: String, recording: String },
+    /// A tier was removed, with those below it.
+    RemoveTier {
+        tiers: Vec<String>,
+        annotations: u64,
+        recording: String,
+    },
+    /// The tiers of a scheme were added to a recording.
+    AddTiers { count: u64, recording: String },
+    /// A tier was copied under another name.
+    CopyTier {
+        tier: String,
+        recording: String,
+        copy: String,
+        annotations: u64,
+    },
+    /// The tiers of a recording were put in order.
+    OrderTiers { recording: String },
+    /// A value was added to an inventory.
+    AddValue { value: String, inventory: String },
+    /// A value of an inventory took the place of another.
+    MergeValues {
+        value: String,
+        into: String,
+        inventory: String,
+    },
+    /// A recording got other properties.
+    ChangeRecording { recording: String },
+    /// A signer got other properties.
+    ChangeSigner { signer: String },
+    /// A sign got other properties, or another gloss, which was written into so many annotations.
+    ChangeSign {
+        sign: String,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        former: Option<String>,
+        annotations: u64,
+    },
+    /// A token became the citation form of its sign.
+    SetCitation { token: i64, gloss: String },
+    /// A token was transcribed.
+    Transcribe { token: i64, gloss: String },
+    /// Tracks were added to a recording.
+    AddTracks {
+        recording: String,
+        tracks: Vec<String>,
+    },
+    /// A track was moved, renamed or removed.
+    ChangeTrack {
+        recording: String,
+        track: String,
+        #[serde(flatten)]
+        change: TrackEffect,
+    },
+    /// A recording got other media files.
+    ChangeMedia { recording: String },
+    /// A skeleton was fitted to the markers of a track, or to those of one person in it.
+    FitMarkers {
+        recording: String,
+        markers: String,
+        #[serde(skip_serializing_if = "Option::is_none")]
+        subject: Option<String>,
+        millimetres: u64,
+    },
+    /// Lost markers were computed for recordings.
+    RestoreMarkers { places: u64, recordings: u64 },
+    /// The curves of a face were fitted to a signer.
+    FitFace {
+        track: String,
+        signer: String,
+        recording: String,
+    },
+    /// A sentence was cued with movements of the dictionary.
+    CueFromDictionary { gloss: String, movements: u64 },
+    /// The targets of cues were found in recordings.
+    FindTargets { keys: u64, recordings: u64 },
+    /// Searches were saved.
+    KeepSearch { names: Vec<String> },
+    /// A saved search got another name.
+    RenameSearch { from: String, to: String },
+    /// A saved search was removed.
+    ForgetSearch { name: String },
+    /// Recordings and signs were deleted.
+    Delete { names: Vec<String> },
+    /// A study was planned.
+    PlanStudy { study: String },
+    /// The answers of participants were imported.
+    ImportAnswers { study: String, participants: u64 },
+    /// A participant of a study was deleted.
+    ForgetParticipant { study: String },
+    /// A study was deleted.
+    DeleteStudy { study: String },
+    /// Signers or recordings got another consent.
+    ChangeConsent { names: Vec<String> },
+    /// Another corpus was merged.
+    Merge {
+        from: String,
+        added: u64,
+        changed: u64,
+        removed: u64,
+        conflicts: u64,
+    },
+    /// Conflicts were decided.
+    Decide {
+        conflicts: Vec<usize>,
+        decision: Decision,
+    },
+    /// Derived rows were made again.
+    Mend {},
+    /// An operation of which only a sentence is known: an earlier program stored it, or a newer one did.
+    Told { name: String, summary: String },
+}
+
+/// What happened to a track.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "change", rename_all = "kebab-case")]
+#[expect(
+    missing_docs,
+    reason = "fields are named like the things whose names or counts they hold"
+)]
+pub enum TrackEffect {
+    /// It starts at another time, in seconds with six decimals.
+    Moved { seconds: String },
+    /// It has another name.
+    Renamed { to: String },
+    /// It is gone.
+    Removed,
+}
+
+/// What happened to annotations, and where.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct AnnotationEffect {
+    /// The changes by kind.
+    pub changes: Vec<AnnotationDeed>,
+    /// How many recordings the annotations belong to.
+    pub recordings: u64,
+    /// The name of the recording, if it is one.
+    #[serde(default)]
+    pub recording: String,
+}
+
+/// A kind of change of annotations, and how many annotations changed like that.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(tag = "does", rename_all = "kebab-case")]
+#[expect(missing_docs, reason = "each has the count of its annotations")]
+pub enum AnnotationDeed {
+    /// They are new.
+    AnnotationsAdded { count: u64 },
+    /// They are different.
+    AnnotationsChanged { count: u64 },
+    /// They are gone.
+    AnnotationsRemoved { count: u64 },
+    /// They have another time.
+    AnnotationsMoved { count: u64 },
+    /// They became one, two by two.
+    AnnotationsMerged { count: u64 },
+    /// They became two each.
+    AnnotationsSplit { count: u64 },
+    /// They all got this value.
+    AnnotationsValued {
+        count: u64,
+        of: ValuedThing,
+        value: String,
+    },
+    /// They got different values.
+    AnnotationsRevalued { count: u64 },
+}
+
+/// What the value of an annotation says something about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+#[expect(missing_docs, reason = "each is a word of the field")]
+pub enum ValuedThing {
+    Handshape,
+    Placement,
+    Movement,
+    Orientation,
+    Gloss,
+    Annotation,
+}
+
+impl ValuedThing {
+    pub(super) const ALL: [Self; 6] = [
+        Self::Handshape,
+        Self::Placement,
+        Self::Movement,
+        Self::Orientation,
+        Self::Gloss,
+        Self::Annotation,
+    ];
+
+    /// Returns the English noun for one of them, or for several.
+    pub(super) fn noun(self, count: u64) -> &'static str {
+        let [one, several] = match self {
+            Self::Handshape => ["handshape", "handshapes"],
+            Self::Placement => ["placement", "placements"],
+            Self::Movement => ["movement", "movements"],
+            Self::Orientation => ["orientation", "orientations"],
+            Self::Gloss => ["gloss", "glosses"],
+            Self::Annotation => ["annotation", "annotations"],
+        };
+        if count == 1 { one } else { several }
+    }
+}
+
+impl AnnotationDeed {
+    fn summary(&self) -> String {
+        let annotations = |count: &u64| counted(*count, "annotations");
+        match self {
+            Self::AnnotationsAdded { count } => format!("{count} added"),
+            Self::AnnotationsChanged { count } => format!("{count} changed"),
+            Self::AnnotationsRemoved { count } => format!("{count} removed"),
+            Self::AnnotationsMoved { count } => format!("{} moved", annotations(count)),
+            Self::AnnotationsMerged { count } => format!("{} merged", annotations(count)),
+            Self::AnnotationsSplit { count } => format!("{} split", annotations(count)),
+            Self::AnnotationsValued { count, of, value } => {
+                format!("{count} {} changed to {value}", of.noun(*count))
+            }
+            Self::AnnotationsRevalued { count } => {
+                let verb = if *count == 1 { "says" } else { "say" };
+                format!("{} {verb} something else", annotations(count))
+            }
+        }
+    }
+}
+
+impl AnnotationEffect {
+    /// Creates the effect of changes in recordings, given by their names.
+    pub(crate) fn from_changes(changes: Vec<AnnotationDeed>, recordings: &[String]) -> Self {
+        let recording = match recordings {
+            [one] => one.clone(),
+            _ => String::new(),
+        };
+        let recordings = recordings.len() as u64;
+        Self {
+            changes,
+            recordings,
+            recording,
+        }
+    }
+
+    /// Returns how many annotations were removed for others.
+    pub(crate) fn count_removed(&self) -> u64 {
+        let removed = self.changes.iter().map(|deed| match deed {
+            AnnotationDeed::AnnotationsRemoved { count } => *count,
+            _ => 0,
+        });
+        removed.sum()
+    }
+
+    pub(crate) fn summary(&self) -> String {
+        let changes: Vec<String> = self.changes.iter().map(AnnotationDeed::summary).collect();
+        let place = match self.recordings {
+            1 => self.recording.clone(),
+            several => counted(several, "recordings"),
+        };
+        format!("{} in {place}", changes.join(", "))
+    }
+}
+
+impl OperationEffect {
+    /// Returns the value that is stored.
+    pub(super) fn to_json(&self) -> Value {
+        // No field is a map with keys other than texts, so that nothing can fail.
+        serde_json::to_value(self).unwrap_or_default()
+    }
+
+    /// Returns the name and the English summary of the operation, and the JSON that is stored beside them.
+    pub(crate) fn stored_texts(&self) -> (String, String, Option<String>) {
+        if let Self::Told { name, summary } = self {
+            return (name.clone(), summary.clone(), None);
+        }
+        let json = self.to_json();
+        let name = json["does"].as_str().unwrap_or_default().replace('-', " ");
+        (name, self.summary(), Some(json.to_string()))
+    }
+
+    /// Reads the effect of a stored operation; without JSON that this program understands, its texts are all there is.
+    pub(crate) fn from_stored_texts(name: &str, summary: &str, json: Option<&str>) -> Self {
+        let read = json.and_then(|json| serde_json::from_str(json).ok());
+        read.unwrap_or_else(|| Self::Told {
+            name: name.to_owned(),
+            summary: summary.to_owned(),
+        })
+    }
+
+    /// Returns the summary in English, as programs get it.
+    fn summary(&self) -> String {
+        match self {
+            Self::Import { count: 0, .. } => "nothing new".to_owned(),
+            Self::Import {
+                count: 1, first, ..
+            } => first.clone(),
+            Self::Import { count, first, last } => format!("{count} files from {first} to {last}"),
+            Self::Recombine { gloss, recipe } | Self::RecombineAgain { gloss, recipe } => {
+                format!("{gloss} = {recipe}")
+            }
+            Self::Annotate(annotations)
+            | Self::Propose(annotations)
+            | Self::Accept { annotations, .. } => annotations.summary(),
+            Self::Adjudicate { tier } => tier.clone(),
+            Self::AddTier { tier, recording } => format!("{tier:?} to {recording}"),
+            Self::ChangeTier { tier, recording } => format!("{tier:?} of {recording}"),
+            Self::RemoveTier {
+                tiers,
+                annotations,
+                recording,
+            } => {
+                let annotations = counted(*annotations, "annotations");
+                format!("{} with {annotations} from {recording}", tiers.join(", "))
+            }
+            Self::AddTiers { count, recording } => format!("{count} to {recording}"),
+            Self::CopyTier {
+                tier,
+                recording,
+                copy,
+                annotations,
+            } => {
+                let annotations = counted(*annotations, "annotations");
+                format!("{tier:?} of {recording} as {copy:?} with {annotations}")
+            }
+            Self::OrderTiers { recording }
+            | Self::ChangeRecording { recording }
+            | Self::ChangeMedia { recording } => recording.clone(),
+            Self::AddValue { value, inventory } => format!("{value} to {inventory}"),
+            Self::MergeValues {
+                value,
+                into,
+                inventory,
+            } => {
+                format!("{value} into {into} in {inventory}")
+            }
+            Self::ChangeSigner { signer } => signer.clone(),
+            Self::ChangeSign {
+                sign, former: None, ..
+            } => sign.clone(),
+            Self::ChangeSign {
+                sign,
+                former: Some(former),
+                annotations,
+            } => {
+                format!(
+                    "{former} to {sign}, {}",
+                    counted(*annotations, "annotations")
+                )
+            }
+            Self::SetCitation { token, gloss } => format!("token:{token} for {gloss}"),
+            Self::Transcribe { token, gloss } => format!("token:{token} {gloss}"),
+            Self::AddTracks { recording, tracks } => format!("{recording}: {}", tracks.join(", ")),
+            Self::ChangeTrack {
+                recording,
+                track,
+                change,
+            } => match change {
+                TrackEffect::Moved { seconds } => {
+                    format!("{recording}: {track} starts at {seconds} s")
+                }
+                TrackEffect::Renamed { to } => format!("{recording}: {track} is now {to}"),
+                TrackEffect::Removed => format!("{recording}: {track} removed"),
+            },
+            Self::FitMarkers {
+                recording,
+                markers,
+                subject,
+                millimetres,
+            } => {
+                let person = subject.as_ref().map(|it| format!(" of {it}"));
+                let person = person.unwrap_or_default();
+                format!("{recording}: a skeleton fitted to {markers}{person}, {millimetres} mm")
+            }
+            Self::RestoreMarkers { places, recordings } => {
+                format!("{places} places of {recordings} recordings")
+            }
+            Self::FitFace {
+                track,
+                signer,
+                recording,
+            } => {
+                format!("weights of {track} fitted to {signer} on {recording}")
+            }
+            Self::CueFromDictionary { gloss, movements } => {
+                format!("{gloss} from {movements} movements")
+            }
+            Self::FindTargets { keys, recordings } => {
+                format!("{keys} keys of {recordings} recordings")
+            }
+            Self::KeepSearch { names } | Self::Delete { names } | Self::ChangeConsent { names } => {
+                names.join(", ")
+            }
+            Self::RenameSearch { from, to } => format!("{from} to {to}"),
+            Self::ForgetSearch { name } => name.clone(),
+            Self::PlanStudy { study }
+            | Self::ForgetParticipant { study }
+            | Self::DeleteStudy { study } => study.clone(),
+            Self::ImportAnswers {
+                study,
+                participants,
+            } => {
+                format!("{study}, {}", counted(*participants, "participants"))
+            }
+            Self::Merge {
+                from,
+                added,
+                changed,
+                removed,
+                conflicts,
+            } => {
+                let conflicts = counted(*conflicts, "conflicts");
+                format!("{from}: {added} added, {changed} changed, {removed} removed, {conflicts}")
+            }
+            Self::Decide {
+                conflicts,
+                decision,
+            } => {
+                let numbers: Vec<String> = conflicts.iter().map(ToString::to_string).collect();
+                format!("conflict {}: {}", numbers.join(", "), decision.name())
+            }
+            Self::Mend {} => "tokens derived again".to_owned(),
+            Self::Told { summary, .. } => summary.clone(),
+        }
+    }
+}

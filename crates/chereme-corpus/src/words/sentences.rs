@@ -1,0 +1,103 @@
+//! Messages with an id, filled with values: the files `history.ftl` and `nouns.ftl` of a language.
+//!
+//! A message may choose among variants by a value, as Fluent does: by the value itself, or by `one` for a number that takes
+//! the singular in this language.
+
+use std::collections::BTreeMap;
+use std::sync::OnceLock;
+
+use fluent_syntax::ast::{
+    Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey,
+};
+use fluent_syntax::parser;
+
+use super::Language;
+use super::count::is_singular;
+use super::phrases::WORD_FILES;
+
+/// The messages of a language by their ids.
+type Sentences = BTreeMap<&'static str, Pattern<&'static str>>;
+
+/// Returns the message with this id in `language`, its variable parts filled by `value`, which gets their names; in
+/// English if the files of the language lack it, and nothing if there is no such message.
+pub(super) fn filled_sentence(
+    id: &str,
+    language: Language,
+    value: &dyn Fn(&str) -> String,
+) -> Option<String> {
+    let known = |language: Language| Some((language, sentences(language).get(id)?));
+    let (language, pattern) = known(language).or_else(|| known(Language::English))?;
+    Some(filled_pattern(pattern, language, value))
+}
+
+/// Returns the messages of the files; a damaged entry is left out, and a test finds it.
+pub(super) fn sentences(language: Language) -> &'static Sentences {
+    static ALL: OnceLock<BTreeMap<&str, Sentences>> = OnceLock::new();
+    static NONE: Sentences = Sentences::new();
+    let all = ALL.get_or_init(|| {
+        let languages = Language::ALL
+            .into_iter()
+            .map(|(language, _)| language.code());
+        languages.map(|code| (code, read_sentences(code))).collect()
+    });
+    all.get(language.code()).unwrap_or(&NONE)
+}
+
+fn read_sentences(code: &str) -> Sentences {
+    let paths = ["history", "nouns"].map(|room| format!("{code}/{room}.ftl"));
+    let files = paths.iter().filter_map(|path| WORD_FILES.get_file(path));
+    let texts = files.filter_map(|file| file.contents_utf8());
+    let entries = texts.flat_map(|text| {
+        let (Ok(resource) | Err((resource, _))) = parser::parse(text);
+        resource.body
+    });
+    let messages = entries.filter_map(|entry| match entry {
+        Entry::Message(message) => Some((message.id.name, message.value?)),
+        _ => None,
+    });
+    messages.collect()
+}
+
+fn filled_pattern(
+    pattern: &Pattern<&str>,
+    language: Language,
+    value: &dyn Fn(&str) -> String,
+) -> String {
+    let part = |element: &PatternElement<&str>| match element {
+        PatternElement::TextElement { value } => (*value).to_owned(),
+        PatternElement::Placeable { expression } => match expression {
+            Expression::Inline(InlineExpression::VariableReference { id }) => value(id.name),
+            Expression::Inline(InlineExpression::StringLiteral { value }) => (*value).to_owned(),
+            Expression::Select {
+                selector: InlineExpression::VariableReference { id },
+                variants,
+            } => chosen_variant(variants, &value(id.name), language)
+                .map_or_else(String::new, |variant| {
+                    filled_pattern(&variant.value, language, value)
+                }),
+            // Nothing else stands in the files; a test fills them all.
+            _ => "{}".to_owned(),
+        },
+    };
+    pattern.elements.iter().map(part).collect()
+}
+
+fn chosen_variant<'v>(
+    variants: &'v [Variant<&'v str>],
+    value: &str,
+    language: Language,
+) -> Option<&'v Variant<&'v str>> {
+    let singular = value
+        .parse()
+        .is_ok_and(|count| is_singular(count, language));
+    let with_key = |wanted: &str| {
+        variants.iter().find(|variant| match variant.key {
+            VariantKey::Identifier { name: key } | VariantKey::NumberLiteral { value: key } => {
+                key == wanted
+            }
+        })
+    };
+    with_key(value)
+        .or_else(|| with_key("one").filter(|_| singular))
+        .or_else(|| variants.iter().find(|variant| variant.default))
+}

@@ -1,0 +1,202 @@
+## The history: what each operation did. `history-` and the name of the operation; its variable parts are its fields.
+## The names of people's things (files, tiers, glosses, recordings) stand in the sentence as they are.
+
+history-import = Imported: { $count ->
+    [0] nothing new
+    [1] { $first }
+   *[other] { $count } files from { $first } to { $last }
+}
+history-recombine = { $gloss } made: { $recipe }
+history-recombine-again = { $gloss } made again: { $recipe }
+history-annotate = { $changes } in { $recordings ->
+    [1] { $recording }
+   *[other] { $recordings } recordings
+}
+history-propose = Proposed from movement: { $changes } in { $recordings ->
+    [1] { $recording }
+   *[other] { $recordings } recordings
+}
+history-accept = Proposed values accepted: { $count }, in { $recordings ->
+    [1] { $recording }
+   *[other] { $recordings } recordings
+}
+history-adjudicate = Adjudicated on the tier { $tier }
+history-add-tier = Tier { $tier } added to { $recording }
+history-change-tier = Tier { $tier } of { $recording } changed
+history-remove-tier = Tiers removed from { $recording }: { $tiers }, with { $annotations ->
+    [one] { $annotations } annotation
+   *[other] { $annotations } annotations
+}
+history-add-tiers = { $count ->
+    [one] { $count } tier added to { $recording }
+   *[other] { $count } tiers added to { $recording }
+}
+history-copy-tier = Tier { $tier } of { $recording } copied as { $copy }, with { $annotations ->
+    [one] { $annotations } annotation
+   *[other] { $annotations } annotations
+}
+history-order-tiers = Tiers put in order: { $recording }
+history-add-value = Value { $value } added to { $inventory }
+history-merge-values = Value { $value } merged into { $into } in { $inventory }
+history-change-recording = Recording changed: { $recording }
+history-change-signer = Signer changed: { $signer }
+history-change-sign = Sign changed: { $sign }
+history-rename-sign = Sign { $former } renamed to { $sign }, in { $annotations ->
+    [one] { $annotations } annotation
+   *[other] { $annotations } annotations
+}
+history-set-citation = Citation form: token:{ $token } for { $gloss }
+history-transcribe = Transcribed: token:{ $token } { $gloss }
+history-add-tracks = Tracks added to { $recording }: { $tracks }
+history-change-track = Track { $track } of { $recording } { $change ->
+    [moved] starts at { $seconds } s
+    [renamed] is now { $to }
+   *[removed] removed
+}
+history-change-media = Media changed: { $recording }
+history-fit-markers = A skeleton fitted to the markers { $markers } of { $recording }, { $millimetres } mm
+# One person of several whose markers are in one track.
+history-fit-markers-of-person = A skeleton fitted to the markers { $markers } of { $subject } in { $recording }, { $millimetres } mm
+history-restore-markers = { $places ->
+    [one] { $places } place of a lost marker computed
+   *[other] { $places } places of lost markers computed
+} in { $recordings ->
+    [one] { $recordings } recording
+   *[other] { $recordings } recordings
+}
+history-fit-face = Face { $track } of { $recording } fitted to { $signer }
+history-cue-from-dictionary = { $gloss } cued from the dictionary, with { $movements ->
+    [one] { $movements } movement
+   *[other] { $movements } movements
+}
+history-find-targets = Targets of { $keys ->
+    [one] { $keys } cue
+   *[other] { $keys } cues
+} found in { $recordings ->
+    [one] { $recordings } recording
+   *[other] { $recordings } recordings
+}
+history-keep-search = Search saved: { $names }
+history-rename-search = Search { $from } renamed to { $to }
+history-forget-search = Saved search removed: { $name }
+history-delete = Deleted: { $names }
+history-delete-undone = Restored: { $names }
+history-plan-study = Study planned: { $study }
+history-import-answers = Answers imported: { $study }, { $participants ->
+    [one] { $participants } participant
+   *[other] { $participants } participants
+}
+history-forget-participant = Participant of a study deleted: { $study }
+history-delete-study = Study deleted: { $study }
+history-change-consent = Consent changed: { $names }
+history-merge = Merged { $from }: { $added } added, { $changed } changed, { $removed } removed, { $conflicts ->
+    [one] { $conflicts } conflict
+   *[other] { $conflicts } conflicts
+}
+# The decision is for the state of this corpus, for that of the other one, or for both of them.
+history-decide = Conflicts decided: { $conflicts }: { $decision ->
+    [mine] mine
+    [theirs] theirs
+   *[both] both
+}
+history-mend = Tokens derived again
+# Operations of an earlier program, of which only its English sentence is known.
+history-told = { $name }: { $summary }
+history-told-import = Imported: { $summary }
+history-told-recombine = Made: { $summary }
+history-told-recombine-again = Made again: { $summary }
+history-told-annotate = Annotations: { $summary }
+history-told-propose = Proposed from movement: { $summary }
+history-told-accept = Proposed values accepted: { $summary }
+history-told-add-tier = Tier added: { $summary }
+history-told-change-tier = Tier changed: { $summary }
+history-told-remove-tier = Tier removed: { $summary }
+history-told-add-tiers = Tiers added: { $summary }
+history-told-copy-tier = Tier copied: { $summary }
+history-told-add-value = Value added: { $summary }
+history-told-merge-values = Values merged: { $summary }
+history-told-rename-search = Search renamed: { $summary }
+history-told-change-sign = Sign changed: { $summary }
+history-told-set-citation = Citation form: { $summary }
+history-told-transcribe = Transcribed: { $summary }
+history-told-add-tracks = Tracks added: { $summary }
+history-told-change-track = Track changed: { $summary }
+history-told-import-answers = Answers imported: { $summary }
+history-told-merge = Merged: { $summary }
+history-told-decide = Decided: { $summary }
+history-undone = Undone: { $what }
+
+## Changes of annotations; several of them stand in a list.
+
+history-annotations-added = { $count ->
+    [one] { $count } annotation added
+   *[other] { $count } annotations added
+}
+history-annotations-changed = { $count ->
+    [one] { $count } annotation changed
+   *[other] { $count } annotations changed
+}
+history-annotations-removed = { $count ->
+    [one] { $count } annotation removed
+   *[other] { $count } annotations removed
+}
+# The undo of a removal.
+history-annotations-removed-undone = { $count ->
+    [one] { $count } annotation restored
+   *[other] { $count } annotations restored
+}
+history-annotations-moved = { $count ->
+    [one] { $count } annotation moved
+   *[other] { $count } annotations moved
+}
+history-annotations-merged = { $count ->
+    [one] { $count } annotation merged
+   *[other] { $count } annotations merged
+}
+history-annotations-split = { $count ->
+    [one] { $count } annotation split
+   *[other] { $count } annotations split
+}
+history-annotations-revalued = { $count ->
+    [one] { $count } annotation says something else
+   *[other] { $count } annotations say something else
+}
+history-annotations-valued = { $count } { $of ->
+    [handshape] { $count ->
+        [one] handshape
+       *[other] handshapes
+    }
+    [placement] { $count ->
+        [one] placement
+       *[other] placements
+    }
+    [movement] { $count ->
+        [one] movement
+       *[other] movements
+    }
+    [orientation] { $count ->
+        [one] orientation
+       *[other] orientations
+    }
+    [gloss] { $count ->
+        [one] gloss
+       *[other] glosses
+    }
+   *[annotation] { $count ->
+        [one] annotation
+       *[other] annotations
+    }
+} changed to { $value }
+
+## Changes of rows, in the details of an operation: what they are of, their name, and their place.
+
+history-row-added = added { $what } { $name }{ $place }{ $span }
+history-row-removed = removed { $what } { $name }{ $place }{ $span }
+history-row-changed = { $what } { $name }{ $place }: { $fields }
+history-row-place = { " on " }{ $name }
+history-row-place-of = { " on " }{ $name } of { $whole }
+history-row-span = { ", " }{ $start } to { $end }
+history-row-fields = { $one }; { $other }
+history-row-field = { $field } from { $from } to { $to }
+history-row-order = its order or form
+history-row-nothing = nothing
