@@ -161,15 +161,17 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     if let Some(path) = &args.to {
         found.write_disagreements(path, args.force)?;
-        output.line(format!("table of disagreements: {}", path.display()))?;
+        output.filled_line("table of disagreements: {path}", &[&path.display()])?;
     }
     if let Some(it) = adjudicated {
-        output.line(format!(
-            "on the tier {:?}: {} on which both agree; {} to decide",
-            it.tier,
-            output.counted(it.agreed, "annotations"),
-            output.counted(it.conflicts, "conflicts"),
-        ))?;
+        output.filled_line(
+            "on the tier {name}: {annotations} on which both agree; {conflicts} to decide",
+            &[
+                &format_args!("{:?}", it.tier),
+                &output.counted(it.agreed, "annotations"),
+                &output.counted(it.conflicts, "conflicts"),
+            ],
+        )?;
         document["adjudicated"] = json!(it);
     }
     output.document(document)
@@ -181,29 +183,36 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
         output.warn(finding)?;
     }
     let counts = &found.counts;
-    output.line(format!(
-        "{:?} has {} units and {:?} has {}, in {}",
-        found.a,
-        counts.units_a,
-        found.b,
-        counts.units_b,
-        output.counted(found.pairs.len() as u64, "pairs of tiers"),
-    ))?;
-    output.line(format!(
-        "matched: {}, {} of them with equal values; only a: {}, only b: {}",
-        counts.matched, counts.equal, counts.unmatched_a, counts.unmatched_b
-    ))?;
+    output.filled_line(
+        "{a} has {n} units and {b} has {m}, in {pairs}",
+        &[
+            &format_args!("{:?}", found.a),
+            &counts.units_a,
+            &format_args!("{:?}", found.b),
+            &counts.units_b,
+            &output.counted(found.pairs.len() as u64, "pairs of tiers"),
+        ],
+    )?;
+    output.filled_line(
+        "matched: {n}, {equal} of them with equal values; only a: {a}, only b: {b}",
+        &[
+            &counts.matched,
+            &counts.equal,
+            &counts.unmatched_a,
+            &counts.unmatched_b,
+        ],
+    )?;
     let kinds = &found.disagreements;
-    output.line(format!(
-        "disagreements in the alignment: only a {}, only b {}, other value {}, start or end {}",
-        kinds.only_a, kinds.only_b, kinds.value, kinds.boundary
-    ))?;
+    output.filled_line(
+        "disagreements in the alignment: only a {a}, only b {b}, other value {value}, start or end \
+         {boundary}",
+        &[&kinds.only_a, &kinds.only_b, &kinds.value, &kinds.boundary],
+    )?;
     if let (Some(onset), Some(offset)) = (&found.onset_s, &found.offset_s) {
-        output.line(format!(
-            "start of b less a: {}; end: {} (median and quartiles, in ms)",
-            quartiles(onset),
-            quartiles(offset)
-        ))?;
+        output.filled_line(
+            "start of b less a: {onset}; end: {offset} (median and quartiles, in ms)",
+            &[&quartiles(onset), &quartiles(offset)],
+        )?;
     }
     if found.counts_only {
         output.line(
@@ -253,7 +262,7 @@ fn print(found: &Agreement, args: &Args, output: &mut Output) -> Result<()> {
     }
     if found.by_value.len() > MOST_ROWS {
         let more = found.by_value.len() - MOST_ROWS;
-        output.line(format!("values that are not shown: {more}; --json has all"))?;
+        output.filled_line("values that are not shown: {n}; --json has all", &[&more])?;
     }
     if found.pairs.len() > 1 {
         let rows: Vec<Vec<String>> = found.pairs.iter().map(|it| pair(it, output)).collect();

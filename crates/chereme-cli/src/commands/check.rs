@@ -45,7 +45,8 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
         output.advise(&fault.remedy)?;
     }
     for mended in &report.mended {
-        output.line(format!("mended: {}", output.spoken(mended)))?;
+        let mended = output.spoken(mended);
+        output.filled_line("mended: {what}", &[&mended])?;
     }
     let looked: Vec<String> = report
         .checked
@@ -59,9 +60,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
     })?;
     if questions > 0 {
         let count = output.counted(questions, "questions");
-        output.line(format!(
-            "not damage, but against the rules of tiers: {count}"
-        ))?;
+        output.filled_line(
+            "not damage, but against the rules of tiers: {count}",
+            &[&count],
+        )?;
     }
     let ok = report.ok;
     output.document(report)?;

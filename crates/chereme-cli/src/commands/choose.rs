@@ -144,18 +144,21 @@ fn show(choice: &Choice, output: &mut Output) -> Result<()> {
         Rank::Farthest => "the least similar to its own face first",
         Rank::Medoid => "the most usual first",
     };
-    output.line(format!(
-        "{} performances of {} for {}, {by}; compared: {}",
-        choice.compared,
-        choice.function,
-        choice.target,
-        choice
-            .channels
-            .iter()
-            .map(|it| it.name)
-            .collect::<Vec<_>>()
-            .join(", ")
-    ))?;
+    output.filled_line(
+        "{n} performances of {function} for {sign}, {order}; compared: {channels}",
+        &[
+            &choice.compared,
+            &choice.function,
+            &choice.target,
+            &output.spoken(by),
+            &choice
+                .channels
+                .iter()
+                .map(|it| it.name)
+                .collect::<Vec<_>>()
+                .join(", "),
+        ],
+    )?;
     let part = |it: &Ranked, at: usize| {
         let phase = it.parts.phases.get(at).and_then(|phase| phase.normalized);
         phase.map_or("-".to_owned(), |it| format!("{it:.3}"))
@@ -193,31 +196,30 @@ fn show(choice: &Choice, output: &mut Output) -> Result<()> {
     ];
     output.table(&titles, &rows)?;
     if !choice.left_out.is_empty() {
-        output.line(format!(
-            "left out, as they are unknown: {}",
-            choice.left_out.join(", ")
-        ))?;
+        output.filled_line(
+            "left out, as they are unknown: {names}",
+            &[&choice.left_out.join(", ")],
+        )?;
     }
     if choice.adapted > 0 {
-        output.line(format!(
-            "comparisons with phases of too different lengths for the window of 10 frames, which was widened: {}",
-            choice.adapted
-        ))?;
+        output.filled_line(
+            "comparisons with phases of too different lengths for the window of 10 frames, which \
+             was widened: {n}",
+            &[&choice.adapted],
+        )?;
     }
     if choice.references > 0 {
-        output.line(format!(
-            "each was compared with {} others",
-            choice.references
-        ))?;
+        output.filled_line("each was compared with {n} others", &[&choice.references])?;
     }
     for (token, why) in choice.skipped.iter().take(10) {
-        output.line(format!("not compared: {token}: {why}"))?;
+        let why = output.spoken(why);
+        output.filled_line("not compared: {token}: {why}", &[token, &why])?;
     }
     if choice.skipped.len() > 10 {
-        output.line(format!(
-            "and {} more were not compared",
-            choice.skipped.len() - 10
-        ))?;
+        output.filled_line(
+            "and {n} more were not compared",
+            &[&(choice.skipped.len() - 10)],
+        )?;
     }
     Ok(())
 }

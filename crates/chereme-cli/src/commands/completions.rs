@@ -69,6 +69,6 @@ pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
     }
     write(whole)?;
     let count = output.counted(files.len() as u64, "files");
-    output.line(format!("wrote {count} to {}", folder.display()))?;
+    output.filled_line("wrote {n} to {path}", &[&count, &folder.display()])?;
     output.document(serde_json::json!({ "files": files }))
 }

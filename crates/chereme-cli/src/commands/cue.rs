@@ -103,7 +103,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut done = corpus.cue(&text, &options, args.gloss.as_deref())?;
     if args.explain {
         for finding in &findings {
-            output.line(format!("warning: {finding}"))?;
+            output.warn(finding)?;
         }
     }
     done.report.warnings.append(&mut findings);

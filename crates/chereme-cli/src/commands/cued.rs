@@ -179,12 +179,12 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 })?;
             }
             if !found.unused.is_empty() {
-                output.line(format!("not used: {}", found.unused.join(", ")))?;
+                output.filled_line("not used: {names}", &[&found.unused.join(", ")])?;
             }
-            output.line(format!(
-                "{} frames at {} a second; {} hidden places restored",
-                found.frames, found.rate, found.restored
-            ))?;
+            output.filled_line(
+                "{n} frames at {rate} a second; {hidden} hidden places restored",
+                &[&found.frames, &found.rate, &found.restored],
+            )?;
             output.document(found)
         }
         Action::Restore {
@@ -325,7 +325,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             }
             if let Some(path) = draw {
                 found.draw(path, *force)?;
-                output.line(format!("drew {}", path.display()))?;
+                output.filled_line("drew {path}", &[&path.display()])?;
             }
             output.document(found)
         }
@@ -340,25 +340,32 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             let found =
                 corpus.cue_dictionary(recordings, text.as_deref(), &options, &mut progress)?;
             drop(bar);
-            output.line(format!(
-                "{} movements from {}: {} of {} pairs of keys; components miss markers by {:.2} mm",
-                found.dikeys,
-                output.counted(found.recordings.len() as u64, "recordings"),
-                found.kinds,
-                found.of,
-                found.missed_mm
-            ))?;
+            output.filled_line(
+                "{n} movements from {recordings}: {found} of {all} pairs of keys; components miss \
+                 markers by {mm} mm",
+                &[
+                    &found.dikeys,
+                    &output.counted(found.recordings.len() as u64, "recordings"),
+                    &found.kinds,
+                    &found.of,
+                    &format_args!("{:.2}", found.missed_mm),
+                ],
+            )?;
             for left in &found.left_out {
-                output.line(format!("left out: {left}"))?;
+                let left = output.spoken(left);
+                output.filled_line("left out: {what}", &[&left])?;
             }
             if let Some(script) = &found.script {
-                output.line(format!(
-                    "the script: {} sentences, {} pairs, {:.1} % of them in the dictionary; {} different ones are missing",
-                    script.sentences,
-                    script.pairs,
-                    script.covered * 100.0,
-                    script.missing.len()
-                ))?;
+                output.filled_line(
+                    "the script: {n} sentences, {pairs} pairs, {share} % of them in the \
+                     dictionary; {missing} different ones are missing",
+                    &[
+                        &script.sentences,
+                        &script.pairs,
+                        &format_args!("{:.1}", script.covered * 100.0),
+                        &script.missing.len(),
+                    ],
+                )?;
                 let rows: Vec<Vec<String>> = script
                     .worth
                     .iter()
@@ -417,10 +424,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             recognised,
         } => {
             let found = corpus.cue_slips(recording, text.as_deref(), *recognised, &options)?;
-            output.line(format!(
-                "{} keys predicted by {}, {} produced ({}); {} as predicted",
-                found.predicted, found.predicted_by, found.produced, found.produced_by, found.right
-            ))?;
+            output.filled_line(
+                "{n} keys predicted by {code}, {produced} produced ({rate}); {same} as predicted",
+                &[
+                    &found.predicted,
+                    &output.spoken(found.predicted_by),
+                    &found.produced,
+                    &output.spoken(found.produced_by),
+                    &found.right,
+                ],
+            )?;
             for kind in [
                 SlipKind::Insertion,
                 SlipKind::Deletion,
@@ -453,10 +466,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 }
 
 fn confusion(name: &str, of: &CueConfusion, output: &mut Output) -> Result<()> {
-    output.line(format!(
-        "{name}: {:.1} % right; shown in rows, recognised in columns",
-        of.rate * 100.0
-    ))?;
+    output.filled_line(
+        "{name}: {share} % right; shown in rows, recognised in columns",
+        &[&name, &format_args!("{:.1}", of.rate * 100.0)],
+    )?;
     let titles: Vec<&str> = std::iter::once("")
         .chain(of.classes.iter().map(String::as_str))
         .collect();
@@ -499,27 +512,32 @@ fn print_comparison(composed: &FromDictionary, output: &mut Output) -> Result<()
         "read back",
     ];
     output.table(&titles, &rows)?;
-    output.line(format!(
-        "{} keys in {:.2} s: {} exact, {} stand in for others, {} synthetic; cost {:.2}",
-        composed.keys,
-        composed.duration_us as f64 / 1e6,
-        composed.exact,
-        composed.backed_off,
-        composed.synthetic,
-        composed.cost
-    ))?;
+    output.filled_line(
+        "{n} keys in {seconds} s: {exact} exact, {others} stand in for others, \
+         {synthetic} synthetic; cost {cost}",
+        &[
+            &composed.keys,
+            &format_args!("{:.2}", composed.duration_us as f64 / 1e6),
+            &composed.exact,
+            &composed.backed_off,
+            &composed.synthetic,
+            &format_args!("{:.2}", composed.cost),
+        ],
+    )?;
     if let (Some(shapes), Some(placements)) = (composed.shapes_read, composed.placements_read) {
-        output.line(format!(
-            "read back: {:.1} % of shapes, {:.1} % of placements",
-            shapes * 100.0,
-            placements * 100.0
-        ))?;
+        output.filled_line(
+            "read back: {shapes} % of shapes, {placements} % of placements",
+            &[
+                &format_args!("{:.1}", shapes * 100.0),
+                &format_args!("{:.1}", placements * 100.0),
+            ],
+        )?;
     }
     for finding in &composed.findings {
         output.warn(finding)?;
     }
     match &composed.recording {
-        Some(name) => output.line(format!("stored as {name}")),
+        Some(name) => output.filled_line("stored as {name}", &[&name]),
         None => output.line("nothing was stored; --as GLOSS stores it"),
     }
 }

@@ -110,11 +110,13 @@ impl Demo {
     fn build(&mut self, cli: &Cli, output: &mut Output) -> Result<()> {
         let files = self.folder.join("starter");
         let unpacked = unpack_starter(&files)?;
-        output.line(format!(
-            "1. The starter corpus: {} in {}",
-            output.counted(unpacked.len() as u64, "files"),
-            files.display()
-        ))?;
+        output.filled_line(
+            "1. The starter corpus: {n} in {path}",
+            &[
+                &output.counted(unpacked.len() as u64, "files"),
+                &files.display(),
+            ],
+        )?;
         let mut corpus = Corpus::create(&self.path, &cli.author())?;
         let mut bar = Bar::new();
         let mut hear = |step: chereme_corpus::Step<'_>| bar.show(step);
@@ -129,11 +131,10 @@ impl Demo {
             .iter()
             .map(|(what, count)| output.counted(*count, what))
             .collect();
-        output.line(format!(
-            "   built {}: {}",
-            self.path.display(),
-            made.join(", ")
-        ))?;
+        output.filled_line(
+            "   built {what}: {n}",
+            &[&self.path.display(), &made.join(", ")],
+        )?;
         if report.has_refusals() {
             bail!(
                 "files of the starter corpus were refused: {:?}",
@@ -154,7 +155,7 @@ impl Demo {
                 "2. Search {what}, {query}: {}",
                 output.counted(answer.total as u64, "tokens")
             ))?;
-            output.line(format!("   {}", glosses.join(", ")))?;
+            output.line_as_is(&format!("   {}", glosses.join(", ")))?;
             if answer.total == 0 {
                 bail!("the starter corpus has no answer to {query}");
             }
@@ -184,18 +185,17 @@ impl Demo {
             self.corpus()?.recombine(recipe, gloss)?;
         }
         let names: Vec<&str> = more.iter().map(|(gloss, _)| gloss.as_str()).collect();
-        output.line(format!(
-            "   and {} more of starter/recipes.txt: {}",
-            more.len(),
-            names.join(", ")
-        ))?;
+        output.filled_line(
+            "   and {n} more of starter/recipes.txt: {names}",
+            &[&more.len(), &names.join(", ")],
+        )?;
         let query = "origin=made right.configuration=U";
         let answer = self.corpus()?.search(query, &SearchOptions::default())?;
         let glosses: Vec<&str> = answer.hits.iter().map(|hit| hit.gloss.as_str()).collect();
-        output.line(format!(
-            "   found again by search, {query}: {}",
-            glosses.join(", ")
-        ))?;
+        output.filled_line(
+            "   found again by search, {query}: {n}",
+            &[&query, &glosses.join(", ")],
+        )?;
         if !glosses.contains(&"LIMACE") {
             bail!("the new sign LIMACE is not found by {query}");
         }
@@ -230,11 +230,10 @@ impl Demo {
             )?);
         }
         drop(bar);
-        output.line(format!(
-            "4. Pictures in {}: {}",
-            self.folder.display(),
-            names.join(", ")
-        ))?;
+        output.filled_line(
+            "4. Pictures in {path}: {names}",
+            &[&self.folder.display(), &names.join(", ")],
+        )?;
         self.steps
             .push(json!({ "step": "draw", "pictures": drawn }));
         Ok(())
@@ -269,10 +268,10 @@ impl Demo {
     fn next(&mut self, output: &mut Output) -> Result<()> {
         let corpus = self.path.display();
         output.line("")?;
-        output.line(format!(
-            "Look at {} first. Then try:",
-            self.folder.join("LIMACE.gif").display()
-        ))?;
+        output.filled_line(
+            "Look at {path} first. Then try:",
+            &[&self.folder.join("LIMACE.gif").display()],
+        )?;
         for line in [
             format!("chereme search {corpus} 'movement=straight not placement=head'"),
             format!(

@@ -89,19 +89,21 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let report = corpus.export(&what, &args.to, &options, progress)?;
     drop(bar);
     match report.files.as_slice() {
-        [one] => output.line(format!(
-            "wrote {}, {} KB",
-            one.path.display(),
-            one.bytes.div_ceil(1024)
-        ))?,
+        [one] => output.filled_line(
+            "wrote {path}, {size} KB",
+            &[&one.path.display(), &one.bytes.div_ceil(1024)],
+        )?,
         files => {
             let bytes: u64 = files.iter().map(|file| file.bytes).sum();
             let megabytes = bytes as f64 / 1e6;
-            output.line(format!(
-                "wrote {}, {megabytes:.1} MB, to {}",
-                output.counted(files.len() as u64, "files"),
-                args.to.display()
-            ))?;
+            output.filled_line(
+                "wrote {n}, {size} MB, to {path}",
+                &[
+                    &output.counted(files.len() as u64, "files"),
+                    &format_args!("{:.1}", megabytes),
+                    &args.to.display(),
+                ],
+            )?;
         }
     }
     for note in &report.notes {

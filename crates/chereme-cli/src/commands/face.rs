@@ -55,10 +55,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         return propose(&mut corpus, &recording.parse()?, args.store, output);
     }
     let face = corpus.face(&recording.parse()?)?;
-    output.line(format!(
-        "{}: {} frames of {} in the track {:?}",
-        face.recording, face.frames, face.system, face.track
-    ))?;
+    output.filled_line(
+        "{recording}: {n} frames of {system} in the track {name}",
+        &[
+            &face.recording,
+            &face.frames,
+            &face.system,
+            &format_args!("{:?}", face.track),
+        ],
+    )?;
     let number = |value: Option<f64>| value.map_or("unknown".to_owned(), |it| format!("{it:.3}"));
     let rows: Vec<Vec<String>> = face
         .numbers
@@ -74,10 +79,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .collect();
     output.table(&["number", "least", "mean", "most"], &rows)?;
     if let Some(on) = &face.fitted_on {
-        output.line(format!("the weights were fitted on {on}"))?;
+        output.filled_line("the weights were fitted on {on}", &[&on])?;
     }
     if face.bridged > 0 {
-        output.line(format!("frames with bridged gaps: {}", face.bridged))?;
+        output.filled_line("frames with bridged gaps: {n}", &[&face.bridged])?;
     }
     findings(&face.findings, output)?;
     output.document(face)
@@ -110,7 +115,7 @@ fn propose(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Out
         &rows,
     )?;
     if store {
-        output.line(format!("{} annotations written", found.written))?;
+        output.filled_line("{n} annotations written", &[&found.written])?;
     }
     output.document(found)
 }
@@ -118,10 +123,10 @@ fn propose(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Out
 fn fit(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output) -> Result<()> {
     let fit = corpus.fit_face(address, store)?;
     let whose = fit.signer.as_deref().unwrap_or(&fit.recording);
-    output.line(format!(
-        "{} of {whose}, fitted on {} frames of {}",
-        fit.system, fit.frames, fit.recording
-    ))?;
+    output.filled_line(
+        "{system} of {whose}, fitted on {n} frames of {recording}",
+        &[&fit.system, &whose, &fit.frames, &fit.recording],
+    )?;
     let factor = |it: f64| match it == 1.0 {
         true => "-".to_owned(),
         false => format!("{it:.2}"),
@@ -139,9 +144,10 @@ fn fit(corpus: &mut Corpus, address: &Address, store: bool, output: &mut Output)
     output.table(&titles, &rows)?;
     findings(&fit.findings, output)?;
     if fit.stored {
-        output.line(format!(
-            "stored: from now on these weights apply to all faces of {whose}"
-        ))?;
+        output.filled_line(
+            "stored: from now on these weights apply to all faces of {whose}",
+            &[&whose],
+        )?;
     }
     output.document(fit)
 }
@@ -192,7 +198,7 @@ fn systems(named: Option<&str>, output: &mut Output) -> Result<()> {
         .collect();
     output.table(&["number", "formula"], &rows)?;
     if !system.unknown.is_empty() {
-        output.line(format!("unknown: {}", system.unknown.join(", ")))?;
+        output.filled_line("unknown: {names}", &[&system.unknown.join(", ")])?;
     }
     for loss in &system.loses {
         output.line(format!("- {} ({})", loss.says, loss.channels.join(", ")))?;

@@ -64,18 +64,25 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         })
         .collect();
     output.table(&["marker", "joint", "median_mm", "most_mm", "seen"], &rows)?;
-    output.line(format!(
-        "{} frames; the skeleton scaled by {:.3}; median distance of the markers {:.1} mm",
-        report.frames, report.scale, report.median_mm
-    ))?;
+    output.filled_line(
+        "{n} frames; the skeleton scaled by {scale}; median distance of the markers {mm} mm",
+        &[
+            &report.frames,
+            &format_args!("{:.3}", report.scale),
+            &format_args!("{:.1}", report.median_mm),
+        ],
+    )?;
     if !report.unused.is_empty() {
-        output.line(format!("not used: {}", report.unused.join(", ")))?;
+        output.filled_line("not used: {names}", &[&report.unused.join(", ")])?;
     }
     for finding in &report.findings {
         output.warn(finding)?;
     }
     match &report.track {
-        Some(track) => output.line(format!("stored as the track {track:?}"))?,
+        Some(track) => output.filled_line(
+            "stored as the track {name}",
+            &[&format_args!("{:?}", track)],
+        )?,
         None => output.line("nothing was stored")?,
     }
     output.document(report)

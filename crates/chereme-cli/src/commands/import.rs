@@ -188,7 +188,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<ExitCod
             drop(corpus);
             let _ = std::fs::remove_file(path);
         } else {
-            output.line(format!("made {}", path.display()))?;
+            output.filled_line("made {path}", &[&path.display()])?;
         }
     }
     let report = report?;
@@ -311,24 +311,27 @@ fn print(report: &ImportReport, output: &mut Output) -> Result<()> {
         }
     }
     if quiet > 0 {
-        output.line(format!(
-            "{quiet} more files were imported without a warning; --json lists their notes"
-        ))?;
+        output.filled_line(
+            "{n} more files were imported without a warning; --json lists their notes",
+            &[&quiet],
+        )?;
     }
     for kind in report.unread() {
         let what = match kind.ending {
             Some(ending) => format!("{} .{ending}", kind.files.len()),
             None => format!("{} without an ending", kind.files.len()),
         };
-        output.line(format!("not read: {what} ({})", output.spoken(&kind.why)))?;
+        let why = output.spoken(&kind.why);
+        output.filled_line("not read: {what} ({why})", &[&what, &why])?;
         for file in kind.files.iter().take(NAMED) {
-            output.line(format!("  {file}"))?;
+            output.line_as_is(&format!("  {file}"))?;
         }
         if kind.files.len() > NAMED {
-            output.line(format!("  and {} more", kind.files.len() - NAMED))?;
+            output.filled_line("  and {n} more", &[&(kind.files.len() - NAMED)])?;
         }
         if let Some(remedy) = kind.remedy {
-            output.line(format!("    what to do: {}", output.spoken(remedy.text())))?;
+            let remedy = output.spoken(remedy.text());
+            output.filled_line("    what to do: {what}", &[&remedy])?;
         }
     }
     for finding in &report.findings {
@@ -381,10 +384,15 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
         recording.unwrap_or_default()
     ))?;
     if let Some(movement) = &file.understood.movement {
-        output.line(format!(
-            "  {} joints, {}, unit {}, axes up,left = {}",
-            movement.joints, movement.frame_rate, movement.unit, movement.axes
-        ))?;
+        output.filled_line(
+            "  {n} joints, {rate}, unit {unit}, axes up,left = {axes}",
+            &[
+                &movement.joints,
+                &movement.frame_rate,
+                &movement.unit,
+                &movement.axes,
+            ],
+        )?;
     }
     for track in file.understood.tracks.iter().flatten() {
         if let Some(line) = track.line() {
@@ -394,19 +402,24 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
     for guess in file.understood.guessed_tiers() {
         let topic = guess.topic().map(|topic| topic.to_string());
         let role = topic.unwrap_or_else(|| "not known".to_owned());
-        output.line(format!("  tier {}: {role}", guess.tier))?;
+        let role = output.spoken(&role);
+        output.filled_line("  tier {name}: {role}", &[&guess.tier, &role])?;
     }
     for column in file.understood.columns.iter().flatten() {
-        output.line(format!("  column {}: {}", column.title, column.meaning))?;
+        output.filled_line(
+            "  column {name}: {meaning}",
+            &[&column.title, &output.spoken(&column.meaning.to_string())],
+        )?;
     }
     let (shown, more) = without_repetition(&file.findings);
     for finding in shown {
         print_finding(finding, output)?;
     }
     if more > 0 {
-        output.line(format!(
-            "  and {more} more findings like these, all of them with --json"
-        ))?;
+        output.filled_line(
+            "  and {n} more findings like these, all of them with --json",
+            &[&more],
+        )?;
     }
     Ok(())
 }

@@ -93,7 +93,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
                 ..InventoryValue::default()
             };
             corpus.add_value(inventory, &new)?;
-            output.line(format!("added {value:?} to {inventory}"))?;
+            output.filled_line(
+                "added {value} to {inventory}",
+                &[&format_args!("{:?}", value), &inventory],
+            )?;
             output.document(serde_json::json!({ "inventory": inventory, "value": value }))
         }
         Action::MergeValue {
@@ -102,10 +105,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             into,
         } => {
             let merged = corpus.merge_values(inventory, from, into)?;
-            output.line(format!(
-                "{from:?} is {:?} from now on; annotations changed: {}, lexicon entries: {}",
-                merged.value, merged.annotations, merged.entries
-            ))?;
+            output.filled_line(
+                "{from} is {to} from now on; annotations changed: {n}, lexicon entries: {entries}",
+                &[
+                    &format_args!("{:?}", from),
+                    &format_args!("{:?}", merged.value),
+                    &merged.annotations,
+                    &merged.entries,
+                ],
+            )?;
             output.document(merged)
         }
     }

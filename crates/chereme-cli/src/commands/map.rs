@@ -54,12 +54,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             return streams::copy(&stand);
         }
         let bytes = map.draw(to, args.force)?;
-        output.line(format!(
-            "drew {} signs to {}: {} KB",
-            map.signs.len(),
-            to.display(),
-            bytes.div_ceil(1024)
-        ))?;
+        output.filled_line(
+            "drew {n} signs to {path}: {size} KB",
+            &[&map.signs.len(), &to.display(), &bytes.div_ceil(1024)],
+        )?;
     } else {
         let glosses = map.signs.iter().map(|it| (it.token, it.gloss.as_str()));
         let glosses: HashMap<i64, &str> = glosses.collect();
@@ -84,10 +82,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         output.table(&["token", "gloss", "x", "y", "most alike"], &rows)?;
     }
     if map.left_out > 0 {
-        output.line(format!(
-            "left out: {} tokens that are not coded for these components",
-            map.left_out
-        ))?;
+        output.filled_line(
+            "left out: {n} tokens that are not coded for these components",
+            &[&map.left_out],
+        )?;
     }
     output.document(json!(map))
 }

@@ -106,10 +106,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         })?;
     } else {
         output.table(&titles, &rows)?;
-        output.line(format!(
-            "phases written: {}; expressions that keep corrected milestones: {}",
-            found.written, found.kept
-        ))?;
+        output.filled_line(
+            "phases written: {n}; expressions that keep corrected milestones: {kept}",
+            &[&found.written, &found.kept],
+        )?;
     }
     output.document(found)
 }

@@ -19,5 +19,5 @@ pub(crate) struct Args {
 pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = Corpus::create(&args.corpus, &cli.author())?;
     output.document(json!({ "corpus": corpus.path() }))?;
-    output.line(format!("made {}", corpus.path().display()))
+    output.filled_line("made {path}", &[&corpus.path().display()])
 }

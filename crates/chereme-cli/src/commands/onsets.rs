@@ -72,25 +72,26 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         "ends: median (quartiles)",
     ];
     output.table(&titles, &rows)?;
-    output.line(format!(
-        "expressions: {}; without a face: {}",
-        found.expressions, found.without_face
-    ))?;
+    output.filled_line(
+        "expressions: {n}; without a face: {none}",
+        &[&found.expressions, &found.without_face],
+    )?;
     if found.with_gaps > 0 {
-        output.line(format!(
-            "expressions during which nothing was measured at times: {}",
-            found.with_gaps
-        ))?;
+        output.filled_line(
+            "expressions during which nothing was measured at times: {n}",
+            &[&found.with_gaps],
+        )?;
     }
     if found.too_long > 0 {
-        output.line(format!(
-            "expressions of more than half an hour, which were not examined: {}; annotate shorter ones",
-            found.too_long
-        ))?;
+        output.filled_line(
+            "expressions of more than half an hour, which were not examined: {n}; annotate shorter \
+             ones",
+            &[&found.too_long],
+        )?;
     }
     if let Some(path) = &args.draw {
         corpus.draw_onsets(&found, path, args.force)?;
-        output.line(format!("drew {}", path.display()))?;
+        output.filled_line("drew {path}", &[&path.display()])?;
     }
     output.document(found)
 }

@@ -54,28 +54,36 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         fields: args.fields.clone(),
         empty: args.empty.into(),
     })?;
-    output.line(format!(
-        "{} pairs of {} signs ({} compared by {}), {} of them certain: both values are given",
-        found.total,
-        found.signs,
-        found.entries,
-        found.fields.join(", "),
-        found.certain
-    ))?;
-    output.line(format!(
-        "homonyms: {} pairs in {} groups of {} signs; {} forms",
-        found.homonyms, found.homonym_groups, found.homonym_signs, found.forms
-    ))?;
+    output.filled_line(
+        "{n} pairs of {signs} signs ({all} compared by {fields}), {certain} of them certain: both \
+         values are given",
+        &[
+            &found.total,
+            &found.signs,
+            &found.entries,
+            &found.fields.join(", "),
+            &found.certain,
+        ],
+    )?;
+    output.filled_line(
+        "homonyms: {n} pairs in {groups} groups of {signs} signs; {forms} forms",
+        &[
+            &found.homonyms,
+            &found.homonym_groups,
+            &found.homonym_signs,
+            &found.forms,
+        ],
+    )?;
     let counts = found.by_field.iter();
     let counts: Vec<String> = counts
         .map(|(field, count)| format!("{field} {count}"))
         .collect();
-    output.line(format!("by field: {}", counts.join(", ")))?;
+    output.filled_line("by field: {list}", &[&counts.join(", ")])?;
     let dense = found.densest.iter();
     let dense: Vec<String> = dense
         .map(|it| format!("{} {}", it.gloss, it.pairs))
         .collect();
-    output.line(format!("in most pairs: {}", dense.join(", ")))?;
+    output.filled_line("in most pairs: {list}", &[&dense.join(", ")])?;
     let mut document = serde_json::to_value(&found)?;
     if args.list {
         let row = |it: &chereme_corpus::Pair| vec![it.a.clone(), it.b.clone(), it.field.clone()];

@@ -65,10 +65,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     if !args.accept.is_empty() {
         let report = corpus.accept_proposals(&args.accept, &mut progress)?;
         drop(bar);
-        output.line(format!(
-            "{} accepted",
-            output.counted(report.added, "annotations")
-        ))?;
+        output.filled_line(
+            "{n} accepted",
+            &[&output.counted(report.added, "annotations")],
+        )?;
         return output.document(report);
     }
     let scope = match &args.only {
@@ -82,14 +82,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         };
         let detected = corpus.detect(&options, &mut progress)?;
         drop(bar);
-        output.line(format!(
-            "proposed: {} in {}",
-            output.counted(detected.annotations, "annotations"),
-            output.counted(detected.recordings.len() as u64, "recordings"),
-        ))?;
+        output.filled_line(
+            "proposed: {annotations} in {recordings}",
+            &[
+                &output.counted(detected.annotations, "annotations"),
+                &output.counted(detected.recordings.len() as u64, "recordings"),
+            ],
+        )?;
         if detected.unobserved > 0 {
             let unobserved = output.counted(detected.unobserved, "recordings");
-            output.line(format!("nothing to examine in {unobserved}"))?;
+            output.filled_line("nothing to examine in {recordings}", &[&unobserved])?;
         }
         return output.document(detected);
     }
@@ -102,13 +104,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     };
     let proposed = corpus.propose(&options, &mut progress)?;
     drop(bar);
-    output.line(format!(
-        "{} in {}, for {}; {} could not be read from movement",
-        output.counted(proposed.annotations, "annotations"),
-        output.counted(proposed.recordings.len() as u64, "recordings"),
-        output.counted(proposed.tokens, "tokens"),
-        output.counted(proposed.unread, "tokens"),
-    ))?;
+    output.filled_line(
+        "{annotations} in {recordings}, for {tokens}; {unread} could not be read from movement",
+        &[
+            &output.counted(proposed.annotations, "annotations"),
+            &output.counted(proposed.recordings.len() as u64, "recordings"),
+            &output.counted(proposed.tokens, "tokens"),
+            &output.counted(proposed.unread, "tokens"),
+        ],
+    )?;
     for finding in &proposed.findings {
         output.warn(finding)?;
     }

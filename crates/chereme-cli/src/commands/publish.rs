@@ -80,50 +80,54 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut hear = |step: Step<'_>| bar.show(step);
     let done = corpus.publish(&args.to, &options, &mut Progress::new(&mut hear))?;
     drop(bar);
-    output.line(format!(
-        "published {}, {} of them with movement: {}",
-        output.counted(done.signs as u64, "signs"),
-        done.moving,
-        done.page.display()
-    ))?;
-    output.line(format!(
-        "signers: {}; files: {}, {} KB",
-        done.signers,
-        done.files,
-        done.bytes.div_ceil(1024)
-    ))?;
+    output.filled_line(
+        "published {signs}, {moving} of them with movement: {path}",
+        &[
+            &output.counted(done.signs as u64, "signs"),
+            &done.moving,
+            &done.page.display(),
+        ],
+    )?;
+    output.filled_line(
+        "signers: {n}; files: {files}, {size} KB",
+        &[&done.signers, &done.files, &done.bytes.div_ceil(1024)],
+    )?;
     for (terms, signs) in &done.terms {
-        output.line(format!("terms {terms:?}: {signs}"))?;
+        output.filled_line(
+            "terms {terms}: {n}",
+            &[&format_args!("{:?}", terms), &signs],
+        )?;
     }
     if done.namesakes > 0 {
-        output.line(format!(
-            "handshapes with the picture of the usual one of that name: {}; the source may mean another one",
-            done.namesakes
-        ))?;
+        output.filled_line(
+            "handshapes with the picture of the usual one of that name: {n}; the source may mean \
+             another one",
+            &[&done.namesakes],
+        )?;
     }
     if done.undrawn > 0 {
-        output.line(format!(
-            "handshapes without a picture: {}; their values have no posture",
-            done.undrawn
-        ))?;
+        output.filled_line(
+            "handshapes without a picture: {n}; their values have no posture",
+            &[&done.undrawn],
+        )?;
     }
     if done.armless > 0 {
-        output.line(format!(
-            "signs whose movement has no arms to show: {}",
-            done.armless
-        ))?;
+        output.filled_line(
+            "signs whose movement has no arms to show: {n}",
+            &[&done.armless],
+        )?;
     }
     if !done.cut.is_empty() {
-        output.line(format!(
-            "movement cut after 3600 frames: {}",
-            done.cut.join(", ")
-        ))?;
+        output.filled_line(
+            "movement cut after 3600 frames: {glosses}",
+            &[&done.cut.join(", ")],
+        )?;
     }
     if !done.apart.is_empty() {
-        output.line(format!(
-            "a touch is lost on the program's own body: {}",
-            done.apart.join(", ")
-        ))?;
+        output.filled_line(
+            "a touch is lost on the program's own body: {glosses}",
+            &[&done.apart.join(", ")],
+        )?;
     }
     if done.without_pairs {
         output.line("minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields")?;

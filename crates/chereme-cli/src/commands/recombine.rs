@@ -110,14 +110,20 @@ pub(super) fn print(
 ) -> Result<()> {
     let seconds = done.duration_us as f64 / 1e6;
     match (done.token, &done.name) {
-        (Some(token), Some(name)) => output.line(format!(
-            "stored {} as token:{token}, recording {name:?}, {seconds:.2} s: {}",
-            done.gloss, done.recipe
-        ))?,
-        _ => output.line(format!(
-            "{seconds:.2} s, not stored (give it a gloss with --as): {}",
-            done.recipe
-        ))?,
+        (Some(token), Some(name)) => output.filled_line(
+            "stored {gloss} as token:{token}, recording {name}, {seconds} s: {recipe}",
+            &[
+                &done.gloss,
+                &token,
+                &format_args!("{:?}", name),
+                &format_args!("{:.2}", seconds),
+                &done.recipe,
+            ],
+        )?,
+        _ => output.filled_line(
+            "{seconds} s, not stored (give it a gloss with --as): {recipe}",
+            &[&format_args!("{:.2}", seconds), &done.recipe],
+        )?,
     }
     if explain {
         for line in done.explanation.trim_end().lines() {
@@ -125,7 +131,7 @@ pub(super) fn print(
         }
     } else {
         for warning in &done.report.warnings {
-            output.line(format!("warning: {warning}"))?;
+            output.warn(warning)?;
         }
     }
     let mut document = serde_json::to_value(done)?;
@@ -144,7 +150,7 @@ pub(super) fn print(
         let progress = &mut Progress::new(&mut hear);
         let picture = draw_clip(done.into(), title, path, &options, progress)?;
         drop(bar);
-        output.line(format!("drew {}", path.display()))?;
+        output.filled_line("drew {path}", &[&path.display()])?;
         document["picture"] = json!(picture);
     }
     output.document(document)

@@ -135,16 +135,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 
 fn say(picture: &Picture, output: &mut Output) -> Result<()> {
     if let Some(body) = &picture.animated_on {
-        output.line(format!(
-            "{} has no movement of its own: its notation was animated on {body}",
-            picture.title
-        ))?;
+        output.filled_line(
+            "{name} has no movement of its own: its notation was animated on {body}",
+            &[&picture.title, &output.spoken(body)],
+        )?;
     }
     if picture.transcribed {
-        output.line(format!(
-            "{} has no notation: it was transcribed from its movement, and not stored",
-            picture.title
-        ))?;
+        output.filled_line(
+            "{name} has no notation: it was transcribed from its movement, and not stored",
+            &[&picture.title],
+        )?;
     }
     let symbols = picture.path.extension().is_some_and(|it| it == "svg");
     output.line(format!(

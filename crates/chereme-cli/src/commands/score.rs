@@ -52,11 +52,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let normalized = score
         .normalized
         .map_or("none".to_owned(), |it| format!("{it:.2}"));
-    output.line(format!(
-        "distance {:.1} in all, {normalized} for each frame of the two (0: the same movement; each part is in its \
-         own scale)",
-        score.distance
-    ))?;
+    output.filled_line(
+        "distance {n} in all, {mean} for each frame of the two (0: the same movement; each part is in \
+         its own scale)",
+        &[&format_args!("{:.1}", score.distance), &normalized])?;
     let rows: Vec<Vec<String>> = score
         .components
         .iter()
@@ -64,15 +63,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .collect();
     output.table(&["component", "distance"], &rows)?;
     if let Some(error) = score.max_joint_error_m {
-        output.line(format!(
-            "largest distance of a joint: {:.1} cm",
-            error * 100.0
-        ))?;
+        output.filled_line(
+            "largest distance of a joint: {cm} cm",
+            &[&format_args!("{:.1}", error * 100.0)],
+        )?;
     }
-    output.line(format!(
-        "alignment: {}",
-        output.counted(score.alignment.len() as u64, "pairs of frames")
-    ))?;
+    output.filled_line(
+        "alignment: {n}",
+        &[&output.counted(score.alignment.len() as u64, "pairs of frames")],
+    )?;
     for finding in &scored.findings {
         output.warn(finding)?;
     }

@@ -104,10 +104,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut corpus = cli.open(&args.corpus)?;
     if let Some(name) = &args.forget {
         let forgotten = corpus.forget_search(name)?;
-        output.line(format!(
-            "saved search @{} deleted: {}",
-            forgotten.name, forgotten.query
-        ))?;
+        output.filled_line(
+            "saved search @{name} deleted: {query}",
+            &[&forgotten.name, &forgotten.query],
+        )?;
         return output.document(forgotten);
     }
     let fields: Vec<String> = match &args.count {
@@ -223,7 +223,7 @@ fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Outpu
     match args.table {
         TableFormat::Text => {
             output.columns(&header, &rows)?;
-            output.line(format!("{} tokens: {}", tally.total, tally.query))?;
+            output.filled_line("{n} tokens: {query}", &[&tally.total, &tally.query])?;
         }
         separated => {
             let tabs = separated == TableFormat::Tsv;

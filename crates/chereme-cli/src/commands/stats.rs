@@ -133,20 +133,20 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     if let Some(path) = &args.to {
         found.write_table(path, args.force)?;
-        output.line(format!("table: {}", path.display()))?;
+        output.filled_line("table: {path}", &[&path.display()])?;
     }
     output.document(found)
 }
 
 fn overview(found: &LexiconStatistics, output: &mut Output) -> Result<()> {
-    output.line(format!(
-        "entries: {}, compared: {}, different forms: {}",
-        found.entries, found.compared, found.forms
-    ))?;
-    output.line(format!(
-        "entropy of forms in bits: {}",
-        number(&found.entropy, 3, output)
-    ))?;
+    output.filled_line(
+        "entries: {n}, compared: {m}, different forms: {k}",
+        &[&found.entries, &found.compared, &found.forms],
+    )?;
+    output.filled_line(
+        "entropy of forms in bits: {number}",
+        &[&number(&found.entropy, 3, output)],
+    )?;
     let frequent = |it: &FieldStatistics| -> String {
         let frequent = it.frequent.iter();
         let frequent = frequent.map(|it| format!("{} {}", it.value, percent(it.share)));
@@ -187,16 +187,21 @@ fn overview(found: &LexiconStatistics, output: &mut Output) -> Result<()> {
 
 fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> {
     let own = &of.statistics;
-    output.line(format!(
-        "{}: {} values in {} entries, {} entries without one",
-        of.field, own.values, own.given, own.empty
-    ))?;
-    output.line(format!(
-        "entropy in bits: {}; without empty cells: {}",
-        number(&own.entropy, 4, output),
-        number(&own.entropy_given, 4, output)
-    ))?;
-    output.line(format!("functional load: {}", number(&own.load, 6, output)))?;
+    output.filled_line(
+        "{field}: {n} values in {given} entries, {empty} entries without one",
+        &[&of.field, &own.values, &own.given, &own.empty],
+    )?;
+    output.filled_line(
+        "entropy in bits: {all}; without empty cells: {given}",
+        &[
+            &number(&own.entropy, 4, output),
+            &number(&own.entropy_given, 4, output),
+        ],
+    )?;
+    output.filled_line(
+        "functional load: {number}",
+        &[&number(&own.load, 6, output)],
+    )?;
     let row = |it: &FieldValue| {
         let ends = it.interval;
         let ends = ends.map(|it| format!("{} … {}", percent(it.low), percent(it.high)));
@@ -210,11 +215,11 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> 
     let rows: Vec<Vec<String>> = of.values.iter().take(limit).map(row).collect();
     output.table(&["value", "count", "share", "95 %"], &rows)?;
     if let Some(more) = rest(of.values.len(), limit) {
-        output.line(format!("values that are not shown: {more}; --json has all"))?;
+        output.filled_line("values that are not shown: {n}; --json has all", &[&more])?;
     }
     if let Some(why) = of.why {
         let why = output.spoken(why);
-        return output.line(format!("contrasts: - ({why})"));
+        return output.filled_line("contrasts: - ({why})", &[&why]);
     }
     let cell = |text: &String| match text.is_empty() {
         true => "∅".to_owned(),
@@ -234,38 +239,43 @@ fn in_depth(of: &FieldInDepth, limit: usize, output: &mut Output) -> Result<()> 
     output.line("contrasts that distinguish signs, the largest load first; ∅ is the empty cell")?;
     output.table(&["value", "other value", "minimal pairs", "load"], &rows)?;
     if let Some(more) = rest(of.contrasts.len(), limit) {
-        output.line(format!(
-            "contrasts that are not shown: {more}; --json has all"
-        ))?;
+        output.filled_line(
+            "contrasts that are not shown: {n}; --json has all",
+            &[&more],
+        )?;
     }
     Ok(())
 }
 
 fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Result<()> {
     let [one, other] = &it.fields;
-    output.line(format!(
-        "{one} × {other}: {} entries with both, {} left out",
-        it.n, it.left_out
-    ))?;
+    output.filled_line(
+        "{one} × {other}: {n} entries with both, {m} left out",
+        &[&one, &other, &it.n, &it.left_out],
+    )?;
     let (bits, chi_square) = it
         .chance
         .map_or((None, None), |it| (Some(it.bits), Some(it.chi_square)));
     let mean =
         |it: Option<f64>, digits: usize| it.map_or("-".to_owned(), |it| format!("{it:.digits$}"));
-    output.line(format!(
-        "mutual information in bits: {} (shuffled: {}), p {}",
-        value(&it.bits, 4, output),
-        mean(bits, 4),
-        value(&it.p_bits, 4, output)
-    ))?;
-    output.line(format!(
-        "chi-square: {} (shuffled: {}), df {}, p {}",
-        value(&it.chi_square, 2, output),
-        mean(chi_square, 2),
-        it.df,
-        value(&it.p, 4, output)
-    ))?;
-    output.line(format!("Cramér's V: {}", value(&it.cramers_v, 4, output)))?;
+    output.filled_line(
+        "mutual information in bits: {bits} (shuffled: {mean}), p {p}",
+        &[
+            &value(&it.bits, 4, output),
+            &mean(bits, 4),
+            &value(&it.p_bits, 4, output),
+        ],
+    )?;
+    output.filled_line(
+        "chi-square: {value} (shuffled: {mean}), df {df}, p {p}",
+        &[
+            &value(&it.chi_square, 2, output),
+            &mean(chi_square, 2),
+            &it.df,
+            &value(&it.p, 4, output),
+        ],
+    )?;
+    output.filled_line("Cramér's V: {value}", &[&value(&it.cramers_v, 4, output)])?;
     let columns: Vec<&FieldValue> = it.columns.iter().take(MOST_COLUMNS).collect();
     let title = format!("{one} / {other}");
     let mut header = vec![title.as_str(), "all"];
@@ -285,38 +295,46 @@ fn association(it: &FieldAssociation, limit: usize, output: &mut Output) -> Resu
     let rows: Vec<Vec<String>> = it.rows.iter().take(limit).map(row).collect();
     output.columns(&header, &rows)?;
     if let Some(more) = rest(it.rows.len(), limit) {
-        output.line(format!("rows that are not shown: {more}; --json has all"))?;
+        output.filled_line("rows that are not shown: {n}; --json has all", &[&more])?;
     }
     if let Some(more) = rest(it.columns.len(), MOST_COLUMNS) {
-        output.line(format!(
-            "columns that are not shown: {more}; --json has all"
-        ))?;
+        output.filled_line("columns that are not shown: {n}; --json has all", &[&more])?;
     }
     Ok(())
 }
 
 fn conditions(it: &Battison, limit: usize, output: &mut Output) -> Result<()> {
-    output.line(format!(
-        "one-handed: {}, symmetrical: {}, asymmetrical: {}, of no known type: {}",
-        it.one_handed, it.symmetry.entries, it.dominance.entries, it.other
-    ))?;
-    output.line(format!("unmarked handshapes: {}", it.unmarked.join(", ")))?;
-    output.line(format!(
-        "symmetry: both handshapes given {}, the same {}, different {}; kept by {}",
-        it.symmetry.given,
-        it.symmetry.same,
-        it.symmetry.different,
-        share(&it.symmetry.kept, output)
-    ))?;
-    output.line(format!(
-        "dominance: both handshapes given {}, the same {}, different {}, of these with an unmarked weak hand {}; kept by {}; weak hand unmarked in {}",
-        it.dominance.given,
-        it.dominance.same,
-        it.dominance.different,
-        it.dominance.different_unmarked,
-        share(&it.dominance.kept, output),
-        share(&it.dominance.unmarked_share, output)
-    ))?;
+    output.filled_line(
+        "one-handed: {n}, symmetrical: {s}, asymmetrical: {a}, of no known type: {o}",
+        &[
+            &it.one_handed,
+            &it.symmetry.entries,
+            &it.dominance.entries,
+            &it.other,
+        ],
+    )?;
+    output.filled_line("unmarked handshapes: {list}", &[&it.unmarked.join(", ")])?;
+    output.filled_line(
+        "symmetry: both handshapes given {n}, the same {same}, different {other}; kept by {share}",
+        &[
+            &it.symmetry.given,
+            &it.symmetry.same,
+            &it.symmetry.different,
+            &share(&it.symmetry.kept, output),
+        ],
+    )?;
+    output.filled_line(
+        "dominance: both handshapes given {n}, the same {same}, different {other}, of these with \
+         an unmarked weak hand {k}; kept by {share}; weak hand unmarked in {all}",
+        &[
+            &it.dominance.given,
+            &it.dominance.same,
+            &it.dominance.different,
+            &it.dominance.different_unmarked,
+            &share(&it.dominance.kept, output),
+            &share(&it.dominance.unmarked_share, output),
+        ],
+    )?;
     let [one, other] = [&it.symmetry, &it.dominance].map(|it| it.exceptions.len());
     let title = format!("entries that do not keep symmetry: {one}");
     exceptions(&title, &it.symmetry, limit, output)?;
@@ -340,16 +358,17 @@ fn exceptions(
         let rows: Vec<Vec<String>> = rows.map(row).collect();
         output.table(&["gloss", "strong hand", "weak hand"], &rows)?;
         if let Some(more) = rest(count, limit) {
-            output.line(format!(
-                "exceptions that are not shown: {more}; --json has all"
-            ))?;
+            output.filled_line(
+                "exceptions that are not shown: {n}; --json has all",
+                &[&more],
+            )?;
         }
     }
     if !condition.incomplete.is_empty() {
-        output.line(format!(
-            "without one of the handshapes: {}",
-            some_of(&condition.incomplete)
-        ))?;
+        output.filled_line(
+            "without one of the handshapes: {list}",
+            &[&some_of(&condition.incomplete)],
+        )?;
     }
     Ok(())
 }
@@ -357,7 +376,7 @@ fn exceptions(
 fn print_finding(finding: &StatsFinding, output: &mut Output) -> Result<()> {
     output.warn(&finding.message)?;
     if !finding.glosses.is_empty() {
-        output.line(format!("  entries: {}", some_of(&finding.glosses)))?;
+        output.filled_line("  entries: {list}", &[&some_of(&finding.glosses)])?;
     }
     match &finding.remedy {
         Some(remedy) => output.advise(remedy),

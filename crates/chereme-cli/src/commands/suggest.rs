@@ -60,18 +60,17 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     }
     let shown = &found.possible[..found.possible.len().min(MOST_POSSIBLE)];
     if !shown.is_empty() {
-        output.line(format!(
-            "possible pairs, in which one sign is not coded for all fields ({} of {}):",
-            shown.len(),
-            found.possible.len()
-        ))?;
+        output.filled_line(
+            "possible pairs, in which one sign is not coded for all fields ({n} of {all}):",
+            &[&shown.len(), &found.possible.len()],
+        )?;
         output.table(&TITLES, &rows(shown))?;
     }
     for (field, values) in &found.unused {
-        output.line(format!(
-            "values of {field} that no sign has with the rest: {}",
-            values.join(", ")
-        ))?;
+        output.filled_line(
+            "values of {field} that no sign has with the rest: {list}",
+            &[&field, &values.join(", ")],
+        )?;
     }
     output.document(found)
 }

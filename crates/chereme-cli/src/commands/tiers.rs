@@ -243,7 +243,10 @@ pub(super) fn run(
                 tier.values = Values::Inventory(inventory.clone());
             }
             let row = corpus.add_tier(&tier)?;
-            output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
+            output.filled_line(
+                "added tier:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
             output.document(row)
         }
         Action::AddTiers { like } => {
@@ -253,7 +256,10 @@ pub(super) fn run(
             };
             let rows = corpus.add_tiers(&needed()?, &scheme)?;
             for row in &rows {
-                output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
+                output.filled_line(
+                    "added tier:{id}, {name}",
+                    &[&row.id, &format_args!("{:?}", row.name)],
+                )?;
             }
             output.document(rows)
         }
@@ -276,7 +282,10 @@ pub(super) fn run(
                 ..TierChange::default()
             };
             let row = corpus.change_tier(&TierName::read(tier, recording)?, &change)?;
-            output.line(format!("changed tier:{}, {:?}", row.id, row.name))?;
+            output.filled_line(
+                "changed tier:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
             output.document(row)
         }
         Action::CopyTier {
@@ -293,14 +302,17 @@ pub(super) fn run(
                 _ => Copied::All,
             };
             let row = corpus.copy_tier(&TierName::read(tier, recording)?, name, &copied)?;
-            output.line(format!("added tier:{}, {:?}", row.id, row.name))?;
+            output.filled_line(
+                "added tier:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
             output.document(row)
         }
         Action::RemoveTier { tier } => {
             let removed = corpus.remove_tier(&TierName::read(tier, recording)?)?;
             let (names, count) = (removed.tiers.join(", "), removed.annotations);
             let count = output.counted(count, "annotations");
-            output.line(format!("removed {names} with {count}"))?;
+            output.filled_line("removed {names} with {n}", &[&names, &count])?;
             output.document(removed)
         }
         Action::Recording {
@@ -318,7 +330,10 @@ pub(super) fn run(
                 notes: notes.clone().map(Some),
             };
             let row = corpus.change_recording(&needed()?, &change)?;
-            output.line(format!("changed recording:{}, {:?}", row.id, row.name))?;
+            output.filled_line(
+                "changed recording:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
             output.document(row)
         }
         Action::Signer {
@@ -336,7 +351,10 @@ pub(super) fn run(
                 _ => annotate::name(signer)?,
             };
             let row = corpus.change_signer(&named, &change)?;
-            output.line(format!("changed signer:{}, {:?}", row.id, row.name))?;
+            output.filled_line(
+                "changed signer:{id}, {name}",
+                &[&row.id, &format_args!("{:?}", row.name)],
+            )?;
             output.document(row)
         }
         Action::Sign {
@@ -357,15 +375,15 @@ pub(super) fn run(
                 _ => Name::Text(sign.clone()),
             };
             let gloss = corpus.change_sign(&named, &change)?;
-            output.line(format!("changed {gloss}"))?;
+            output.filled_line("changed {gloss}", &[&gloss])?;
             output.document(serde_json::json!({ "gloss": gloss }))
         }
         Action::Cite { token } => {
             let row = corpus.set_citation(&token.parse()?)?;
-            output.line(format!(
-                "token:{} is the citation form of {}",
-                row.id, row.gloss
-            ))?;
+            output.filled_line(
+                "token:{id} is the citation form of {gloss}",
+                &[&row.id, &row.gloss],
+            )?;
             output.document(row)
         }
     }

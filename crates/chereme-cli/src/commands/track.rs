@@ -116,16 +116,19 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
             },
         );
         let found = corpus.align_track(&args.recording, &own, &other, args.within)?;
-        output.line(format!(
-            "{} starts at {:.3} s (now {:.3} s): correlation {:.2} with {}, elsewhere at most {:.2}, confidence {:.2}",
-            found.track,
-            found.offset_us as f64 / 1e6,
-            found.offset_now_us as f64 / 1e6,
-            found.correlation,
-            found.to,
-            found.runner_up,
-            found.confidence
-        ))?;
+        output.filled_line(
+            "{track} starts at {time} s (now {now} s): correlation {r} with {other}, elsewhere at \
+             most {most}, confidence {sure}",
+            &[
+                &found.track,
+                &format_args!("{:.3}", found.offset_us as f64 / 1e6),
+                &format_args!("{:.3}", found.offset_now_us as f64 / 1e6),
+                &format_args!("{:.2}", found.correlation),
+                &found.to,
+                &format_args!("{:.2}", found.runner_up),
+                &format_args!("{:.2}", found.confidence),
+            ],
+        )?;
         if found.confidence < 0.5 {
             output.line(
                 "this is uncertain: look at both tracks before you use it, or name other channels",

@@ -43,7 +43,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let corpus = cli.open(&args.corpus)?;
     if let Some(to) = &args.to {
         let count = corpus.export_answers(&args.name, to, args.force)?;
-        output.line(format!("wrote {count} answers to {}", to.display()))?;
+        output.filled_line("wrote {n} answers to {path}", &[&count, &to.display()])?;
         return output.document(serde_json::json!({ "path": to, "answers": count }));
     }
     let filter = AnswerFilter {
@@ -55,14 +55,16 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let sum = |of: fn(&chereme_corpus::study::ParticipantSummary) -> u64| -> u64 {
         list.participants.iter().map(of).sum()
     };
-    output.line(format!(
-        "{}, {} to the end; {} answers, {} passed over, {} not reached",
-        output.counted(list.participants.len() as u64, "participants"),
-        sum(|it| u64::from(it.finished)),
-        sum(|it| it.answers),
-        sum(|it| it.skipped),
-        sum(|it| it.not_reached),
-    ))?;
+    output.filled_line(
+        "{people}, {n} to the end; {answers} answers, {m} passed over, {k} not reached",
+        &[
+            &output.counted(list.participants.len() as u64, "participants"),
+            &sum(|it| u64::from(it.finished)),
+            &sum(|it| it.answers),
+            &sum(|it| it.skipped),
+            &sum(|it| it.not_reached),
+        ],
+    )?;
     list.keep(&filter)?;
     let language = output.language();
     let row = |it: &AnswerRow| {
@@ -99,7 +101,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     )?;
     if list.rows.len() > MOST_ROWS {
         let more = list.rows.len() - MOST_ROWS;
-        output.line(format!("rows that are not shown: {more}; --json has all"))?;
+        output.filled_line("rows that are not shown: {n}; --json has all", &[&more])?;
     }
     output.document(list)
 }

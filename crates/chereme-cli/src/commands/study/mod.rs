@@ -226,7 +226,7 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
             show(&study.plan, output)?;
             if !study.participants.is_empty() {
                 let count = output.counted(study.participants.len() as u64, "participants");
-                output.line(format!("answered by {count}"))?;
+                output.filled_line("answered by {count}", &[&count])?;
             }
             output.document(study.plan)
         }
@@ -247,13 +247,15 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
                 .open(corpus)?
                 .build_study(name, to, options, &mut progress)?;
             drop(bar);
-            output.line(format!(
-                "questionnaire {}: {} films, {} orders of trials, {} KB",
-                done.page.display(),
-                done.films,
-                done.orders,
-                done.bytes.div_ceil(1000)
-            ))?;
+            output.filled_line(
+                "questionnaire {path}: {n} films, {orders} orders of trials, {size} KB",
+                &[
+                    &done.page.display(),
+                    &done.films,
+                    &done.orders,
+                    &done.bytes.div_ceil(1000),
+                ],
+            )?;
             for picture in &done.missing {
                 output.warn(&format!(
                     "the plan names a picture that is missing: {}",
@@ -271,14 +273,15 @@ fn act(cli: &Cli, action: &Action, output: &mut Output) -> Result<()> {
         Action::Report(args) => report::run(cli, args, output),
         Action::Forget { corpus, name, code } => {
             cli.open(corpus)?.forget_participant(name, code)?;
-            output.line(format!(
-                "deleted {code}; undo restores the answers, so the file still holds them"
-            ))?;
+            output.filled_line(
+                "deleted {code}; undo restores the answers, so the file still holds them",
+                &[&code],
+            )?;
             output.document(serde_json::json!({ "study": name, "participant": code }))
         }
         Action::Delete { corpus, name } => {
             cli.open(corpus)?.delete_study(name)?;
-            output.line(format!("deleted the study {name}"))?;
+            output.filled_line("deleted the study {name}", &[&name])?;
             output.document(serde_json::json!({ "study": name }))
         }
     }
@@ -311,14 +314,16 @@ fn import(
             print_finding(finding, output)?;
         }
     }
-    output.line(format!(
-        "{}: {} new, {} replaced, {} unchanged; {} answers stored",
-        output.counted(report.files.len() as u64, "files"),
-        report.added,
-        report.replaced,
-        report.unchanged,
-        report.answers
-    ))?;
+    output.filled_line(
+        "{files}: {n} new, {more} replaced, {same} unchanged; {count} answers stored",
+        &[
+            &output.counted(report.files.len() as u64, "files"),
+            &report.added,
+            &report.replaced,
+            &report.unchanged,
+            &report.answers,
+        ],
+    )?;
     let refused = |it: &AnswersFile| it.status == FileStatus::Refused;
     if options.dry_run {
         output.line("nothing was stored: this was a dry run")?;

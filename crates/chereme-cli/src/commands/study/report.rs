@@ -34,7 +34,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     match &args.to {
         Some(to) => {
             for file in report.write(to, args.force, output.language())? {
-                output.line(format!("report: {}", file.display()))?;
+                output.filled_line("report: {path}", &[&file.display()])?;
             }
             conclusions(&report, output)?;
         }
@@ -50,13 +50,13 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
 
 fn people(report: &Report, output: &mut Output) -> Result<()> {
     let people = &report.people;
-    output.line(format!(
-        "{} participants answered, {} are analysed",
-        people.recruited, people.analysed
-    ))?;
+    output.filled_line(
+        "{n} participants answered, {m} are analysed",
+        &[&people.recruited, &people.analysed],
+    )?;
     for it in &people.excluded {
         let reason = numbers::reason(&it.reason, output.language());
-        output.line(format!("  left out: {}: {reason}", it.count))?;
+        output.filled_line("  left out: {n}: {why}", &[&it.count, &reason])?;
     }
     Ok(())
 }
@@ -160,10 +160,10 @@ fn conclusions(report: &Report, output: &mut Output) -> Result<()> {
                 || "-".to_owned(),
                 |it| numbers::number(it.coefficient, 3, language),
             );
-            output.line(format!(
-                "{} and {}: rho {rho}",
-                measure.measure, compared.question
-            ))?;
+            output.filled_line(
+                "{measure} and {question}: rho {rho}",
+                &[&measure.measure, &compared.question, &rho],
+            )?;
         }
         if let (Some(stated), Some(conclusion)) = (&compared.hypothesis, &compared.conclusion) {
             let verdict = w::verdict(conclusion.verdict).of(language);
