@@ -1,15 +1,15 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-agree-tolerance-time-0-more = a tolerance is a time of 0 or more
-message-command-agree-table-disagreements = table of disagreements: { $path }
+line-command-agree-table-disagreements = table of disagreements: { $path }
 message-command-agree-write-80ms-0-08s = write 80ms, or 0.08s
-message-command-agree-on-tier-on-both-agree-decide = on the tier { $name }: { $annotations } on which both agree; { $conflicts } to decide
-message-command-agree-has-units-has-in = { $a } has { $n } units and { $b } has { $m }, in { $pairs }
-message-command-agree-matched-them-with-equal-values-only = matched: { $n }, { $equal } of them with equal values; only a: { $a }, only b: { $b }
+line-command-agree-on-tier-on-both-agree-decide = on the tier { $name }: { $annotations } on which both agree; { $conflicts } to decide
+line-command-agree-has-units-has-in = { $a } has { $n } units and { $b } has { $m }, in { $pairs }
+line-command-agree-matched-them-with-equal-values-only = matched: { $n }, { $equal } of them with equal values; only a: { $a }, only b: { $b }
 message-command-agree-disagreements-in-alignment-only-only-b = disagreements in the alignment: only a { $a }, only b { $b }, other value { $value }, start or end { $boundary }
-message-command-agree-start-b-less-end-median-quartiles = start of b less a: { $onset }; end: { $offset } (median and quartiles, in ms)
+line-command-agree-start-b-less-end-median-quartiles = start of b less a: { $onset }; end: { $offset } (median and quartiles, in ms)
 message-command-agree-too-few-units-values-for-figures = too few units or values for figures; with --json they are computed all the same
-message-command-agree-values-not-shown-json-has-all = values that are not shown: { $n }; --json has all
+line-command-agree-values-not-shown-json-has-all = values that are not shown: { $n }; --json has all
 
 ## Help of commands and options.
 

@@ -1,14 +1,14 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-annotate-nothing-written-would = nothing is written; it would be:
-message-command-annotate-added-tier = added tier:{ $id }, { $name }
-message-command-annotate-changed-tier = changed tier:{ $id }, { $name }
-message-command-annotate-changed-recording = changed recording:{ $id }, { $name }
-message-command-annotate-changed-signer = changed signer:{ $id }, { $name }
-message-command-annotate-changed = changed { $gloss }
-message-command-annotate-removed-with = removed { $names } with { $n }
-message-command-annotate-token-citation-form = token:{ $id } is the citation form of { $gloss }
-message-command-annotate-at-s = { $tier } of { $recording } at { $time } s: { $from } -> { $to }
+line-command-annotate-added-tier = added tier:{ $id }, { $name }
+line-command-annotate-changed-tier = changed tier:{ $id }, { $name }
+line-command-annotate-changed-recording = changed recording:{ $id }, { $name }
+line-command-annotate-changed-signer = changed signer:{ $id }, { $name }
+line-command-annotate-changed = changed { $gloss }
+line-command-annotate-removed-with = removed { $names } with { $n }
+line-command-annotate-token-citation-form = token:{ $id } is the citation form of { $gloss }
+line-command-annotate-at-s = { $tier } of { $recording } at { $time } s: { $from } -> { $to }
 message-command-annotate-write-time-such-as-0-2s = write a time such as 0.2s or -200ms
 message-command-annotate-write-language-text-such-as-fr = write LANGUAGE=TEXT, such as fr=escargot
 message-command-annotate-role-names-hand-hand-says = --role names the { $own } hand, and --hand says { $other }

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-check-mended = mended: { $what }
-message-command-check-not-damage-but-against-rules-tiers = not damage, but against the rules of tiers: { $count }
+line-command-check-mended = mended: { $what }
+line-command-check-not-damage-but-against-rules-tiers = not damage, but against the rules of tiers: { $count }
 message-command-check-all-well-looked-at = all is well: looked at { $list }
 message-command-check-there-faults-looked-at = there are faults: looked at { $list }
 message-command-check-check-cannot-go-on-take-backup = the check cannot go on: take a backup, or save what can be read with `chereme export CORPUS all --to FOLDER`

@@ -1,14 +1,14 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-choose-more-not-compared = and { $n } more were not compared
-message-command-choose-performances-for-compared = { $n } performances of { $function } for { $sign }, { $order }; compared: { $channels }
+line-command-choose-more-not-compared = and { $n } more were not compared
+line-command-choose-performances-for-compared = { $n } performances of { $function } for { $sign }, { $order }; compared: { $channels }
 message-command-choose-most-similar-own-face-first = the most similar to its own face first
 message-command-choose-least-similar-own-face-first = the least similar to its own face first
 message-command-choose-most-usual-first = the most usual first
-message-command-choose-left-out-as-they-unknown = left out, as they are unknown: { $names }
+line-command-choose-left-out-as-they-unknown = left out, as they are unknown: { $names }
 message-command-choose-comparisons-with-phases-too-different-lengths = comparisons with phases of too different lengths for the window of 10 frames, which was widened: { $n }
-message-command-choose-each-compared-with-others = each was compared with { $n } others
-message-command-choose-not-compared = not compared: { $token }: { $why }
+line-command-choose-each-compared-with-others = each was compared with { $n } others
+line-command-choose-not-compared = not compared: { $token }: { $why }
 
 ## Help of commands and options.
 

@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-completions-wrote = wrote { $n } to { $path }
+line-command-completions-wrote = wrote { $n } to { $path }
 
 ## Help of commands and options.
 

@@ -3,18 +3,18 @@
 message-command-cued-markers-their-positions-visible-missing = { $name }: { $n } markers, { $share } % of their positions visible; missing: { $names }
 message-command-cued-markers-their-positions-visible-missing-2 = { $name }: { $n } markers, { $share } % of their positions visible; { $missing } are missing
 message-command-cued-markers-their-positions-visible = { $name }: { $n } markers, { $share } % of their positions visible
-message-command-cued-frames-at-second-hidden-places-restored = { $n } frames at { $rate } a second; { $hidden } hidden places restored
+line-command-cued-frames-at-second-hidden-places-restored = { $n } frames at { $rate } a second; { $hidden } hidden places restored
 message-command-cued-nothing-stored-store-writes-tiers = nothing was stored; --store writes tiers
 message-command-cued-nothing-stored-as-gloss-stores = nothing was stored; --as GLOSS stores it
 message-command-cued-recognised-after-training-on = { $what } recognised after training on { $other }
 message-command-cued-recognisers-tested-on-keys-from-they = the recognisers were tested on the keys from which they learned
 message-command-cued-movements-from-pairs-keys-components-miss = { $n } movements from { $recordings }: { $found } of { $all } pairs of keys; components miss markers by { $mm } mm
 message-command-cued-script-sentences-pairs-them-in-dictionary = the script: { $n } sentences, { $pairs } pairs, { $share } % of them in the dictionary; { $missing } different ones are missing
-message-command-cued-keys-predicted-by-produced-as-predicted = { $n } keys predicted by { $code }, { $produced } produced ({ $rate }); { $same } as predicted
-message-command-cued-right-shown-in-rows-recognised-in = { $name }: { $share } % right; shown in rows, recognised in columns
+line-command-cued-keys-predicted-by-produced-as-predicted = { $n } keys predicted by { $code }, { $produced } produced ({ $rate }); { $same } as predicted
+line-command-cued-right-shown-in-rows-recognised-in = { $name }: { $share } % right; shown in rows, recognised in columns
 message-command-cued-keys-in-s-exact-stand-in = { $n } keys in { $seconds } s: { $exact } exact, { $others } stand in for others, { $synthetic } synthetic; cost { $cost }
-message-command-cued-read-back-shapes-placements = read back: { $shapes } % of shapes, { $placements } % of placements
-message-command-cued-stored-as = stored as { $name }
+line-command-cued-read-back-shapes-placements = read back: { $shapes } % of shapes, { $placements } % of placements
+line-command-cued-stored-as = stored as { $name }
 
 ## Help of commands and options.
 

@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-export-wrote-mb = wrote { $n }, { $size } MB, to { $path }
+line-command-export-wrote-mb = wrote { $n }, { $size } MB, to { $path }
 message-command-export-wrote-kb = wrote { $path }, { $size } KB
 message-command-export-standard-output-has-no-extension-says = standard output has no extension that says the format
 message-command-export-name-as-with-format-csv = name it, as with --format csv

@@ -1,12 +1,12 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-face-fitted-on-frames = { $system } of { $whose }, fitted on { $n } frames of { $recording }
-message-command-face-unknown = unknown: { $names }
-message-command-face-frames-in-track = { $recording }: { $n } frames of { $system } in the track { $name }
-message-command-face-weights-fitted-on = the weights were fitted on { $on }
-message-command-face-frames-with-bridged-gaps = frames with bridged gaps: { $n }
-message-command-face-annotations-written = { $n } annotations written
-message-command-face-stored-from-now-on-these-weights = stored: from now on these weights apply to all faces of { $whose }
+line-command-face-fitted-on-frames = { $system } of { $whose }, fitted on { $n } frames of { $recording }
+line-command-face-unknown = unknown: { $names }
+line-command-face-frames-in-track = { $recording }: { $n } frames of { $system } in the track { $name }
+line-command-face-weights-fitted-on = the weights were fitted on { $on }
+line-command-face-frames-with-bridged-gaps = frames with bridged gaps: { $n }
+line-command-face-annotations-written = { $n } annotations written
+line-command-face-stored-from-now-on-these-weights = stored: from now on these weights apply to all faces of { $whose }
 message-command-face-no-face-system = { $name } is no face system
 message-command-face-systems = the systems are: { $names }
 

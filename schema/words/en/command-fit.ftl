@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-fit-stored-as-track = stored as the track { $name }
-message-command-fit-frames-skeleton-scaled-by-median-distance = { $n } frames; the skeleton scaled by { $scale }; median distance of the markers { $mm } mm
+line-command-fit-stored-as-track = stored as the track { $name }
+line-command-fit-frames-skeleton-scaled-by-median-distance = { $n } frames; the skeleton scaled by { $scale }; median distance of the markers { $mm } mm
 
 ## Help of commands and options.
 

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-history-limit-shows-more = and { $n }; --limit shows more
-message-command-history-rows = rows: { $names }
+line-command-history-limit-shows-more = and { $n }; --limit shows more
+line-command-history-rows = rows: { $names }
 message-command-history-write-how-many-operations-1-more = write how many operations, 1 or more
 message-command-history-write-number-operation-such-as-12 = write the number of an operation, such as 12
 

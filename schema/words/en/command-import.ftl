@@ -1,19 +1,19 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-import-more-findings-like-these-all-them = and { $n } more findings like these, all of them with --json
+line-command-import-more-findings-like-these-all-them = and { $n } more findings like these, all of them with --json
 message-command-import-made = made: { $list }
 message-command-import-removed = removed: { $list }
 message-command-import-would-make = would make: { $list }
 message-command-import-would-remove = would remove: { $list }
-message-command-import-more-files-imported-without-warning-json = { $n } more files were imported without a warning; --json lists their notes
+line-command-import-more-files-imported-without-warning-json = { $n } more files were imported without a warning; --json lists their notes
 message-command-import-not-read-without-ending = not read: { $what } without an ending ({ $why })
-message-command-import-not-read = not read: { $what } ({ $why })
+line-command-import-not-read = not read: { $what } ({ $why })
 message-command-import-nothing-new = nothing new
-message-command-import-joints-unit-axes-up-left = { $n } joints, { $rate }, unit { $unit }, axes up,left = { $axes }
+line-command-import-joints-unit-axes-up-left = { $n } joints, { $rate }, unit { $unit }, axes up,left = { $axes }
 message-command-import-track-points-frames-unit-axes-up = track { $name }: { $n } points, { $all } frames, { $rate }, unit { $unit }, axes up,left = { $axes }
 message-command-import-track-points-frames = track { $name }: { $n } points, { $all } frames, { $rate }
 message-command-import-track-curves-frames = track { $name }: { $n } curves, { $all } frames, { $rate }
-message-command-import-column = column { $name }: { $meaning }
+line-command-import-column = column { $name }: { $meaning }
 message-command-import-updated-recording = { $file }: updated -> recording { $name }
 message-command-import-updated = { $file }: updated
 message-command-import-unchanged-recording = { $file }: unchanged -> recording { $name }

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-inventory-added = added { $value } to { $inventory }
-message-command-inventory-from-now-on-annotations-changed-lexicon = { $from } is { $to } from now on; annotations changed: { $n }, lexicon entries: { $entries }
+line-command-inventory-added = added { $value } to { $inventory }
+line-command-inventory-from-now-on-annotations-changed-lexicon = { $from } is { $to } from now on; annotations changed: { $n }, lexicon entries: { $entries }
 message-command-inventory-write-language-name-such-as-fr = write LANGUAGE=NAME, such as fr=poing
 
 ## Help of commands and options.

@@ -1,20 +1,20 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-list-mb-schema-version = { $path }: { $size } MB, schema version { $version }
-message-command-list-holds = holds: { $list }
-message-command-list-movement-hours = movement: { $hours } hours, { $frames }
-message-command-list-markers-hours = markers: { $hours } hours, { $frames }
-message-command-list-faces-other-curves-hours = faces and other curves: { $hours } hours, { $frames }
+line-command-list-mb-schema-version = { $path }: { $size } MB, schema version { $version }
+line-command-list-holds = holds: { $list }
+line-command-list-movement-hours = movement: { $hours } hours, { $frames }
+line-command-list-markers-hours = markers: { $hours } hours, { $frames }
+line-command-list-faces-other-curves-hours = faces and other curves: { $hours } hours, { $frames }
 message-command-list-recordings = recordings: { $list }
-message-command-list-tracks = tracks: { $list }
+line-command-list-tracks = tracks: { $list }
 message-command-list-tiers = tiers: { $list }
 message-command-list-signer-handedness-not-known = signer { $name }: handedness not known, { $n }
 message-command-list-signer-right = signer { $name }: right, { $n }
 message-command-list-signer-left = signer { $name }: left, { $n }
-message-command-list-signer = signer { $name }: { $hand }, { $n }
+line-command-list-signer = signer { $name }: { $hand }, { $n }
 message-command-list-inventories = inventories: { $list }
-message-command-list-attributes-signs = attributes of signs: { $list }
-message-command-list-last-change-by = last change: { $at } by { $who }: { $what }
+line-command-list-attributes-signs = attributes of signs: { $list }
+line-command-list-last-change-by = last change: { $at } by { $who }: { $what }
 message-command-list-write-column-pattern-such-as-gloss = write COLUMN=PATTERN, such as gloss=BO*
 
 ## Help of commands and options.

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-map-left-out-tokens-not-coded-for = left out: { $n } tokens that are not coded for these components
-message-command-map-drew-signs-kb = drew { $n } signs to { $path }: { $size } KB
+line-command-map-left-out-tokens-not-coded-for = left out: { $n } tokens that are not coded for these components
+line-command-map-drew-signs-kb = drew { $n } signs to { $path }: { $size } KB
 
 ## Help of commands and options.
 

@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-milestones-phases-written-expressions-keep-corrected-milestones = phases written: { $n }; expressions that keep corrected milestones: { $kept }
+line-command-milestones-phases-written-expressions-keep-corrected-milestones = phases written: { $n }; expressions that keep corrected milestones: { $kept }
 message-command-milestones-no-tier-names-functions-annotate-wh = no tier names functions; annotate wh, yn, negation or topic on a tier called "function"
 message-command-milestones-no-such-expression-functions = no such expression; the functions are: { $names }
 

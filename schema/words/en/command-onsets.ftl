@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-onsets-expressions-without-face = expressions: { $n }; without a face: { $none }
-message-command-onsets-expressions-during-nothing-measured-at-times = expressions during which nothing was measured at times: { $n }
+line-command-onsets-expressions-without-face = expressions: { $n }; without a face: { $none }
+line-command-onsets-expressions-during-nothing-measured-at-times = expressions during which nothing was measured at times: { $n }
 message-command-onsets-expressions-more-than-half-hour-not = expressions of more than half an hour, which were not examined: { $n }; annotate shorter ones
 
 ## Help of commands and options.

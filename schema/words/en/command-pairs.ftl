@@ -1,9 +1,9 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-pairs-pairs-signs-compared-by-them-certain = { $n } pairs of { $signs } signs ({ $all } compared by { $fields }), { $certain } of them certain: both values are given
-message-command-pairs-homonyms-pairs-in-groups-signs-forms = homonyms: { $n } pairs in { $groups } groups of { $signs } signs; { $forms } forms
-message-command-pairs-by-field = by field: { $list }
-message-command-pairs-in-most-pairs = in most pairs: { $list }
+line-command-pairs-homonyms-pairs-in-groups-signs-forms = homonyms: { $n } pairs in { $groups } groups of { $signs } signs; { $forms } forms
+line-command-pairs-by-field = by field: { $list }
+line-command-pairs-in-most-pairs = in most pairs: { $list }
 
 ## Help of commands and options.
 

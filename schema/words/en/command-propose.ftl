@@ -1,9 +1,9 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-propose-accepted = { $n } accepted
-message-command-propose-proposed-in = proposed: { $annotations } in { $recordings }
-message-command-propose-nothing-examine-in = nothing to examine in { $recordings }
-message-command-propose-in-for-could-not-read-from = { $annotations } in { $recordings }, for { $tokens }; { $unread } could not be read from movement
+line-command-propose-accepted = { $n } accepted
+line-command-propose-proposed-in = proposed: { $annotations } in { $recordings }
+line-command-propose-nothing-examine-in = nothing to examine in { $recordings }
+line-command-propose-in-for-could-not-read-from = { $annotations } in { $recordings }, for { $tokens }; { $unread } could not be read from movement
 
 ## Help of commands and options.
 

@@ -1,13 +1,13 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-publish-published-them-with-movement = published { $signs }, { $moving } of them with movement: { $path }
-message-command-publish-signers-files-kb = signers: { $n }; files: { $files }, { $size } KB
-message-command-publish-terms = terms { $terms }: { $n }
+line-command-publish-published-them-with-movement = published { $signs }, { $moving } of them with movement: { $path }
+line-command-publish-signers-files-kb = signers: { $n }; files: { $files }, { $size } KB
+line-command-publish-terms = terms { $terms }: { $n }
 message-command-publish-handshapes-with-picture-usual-one-name = handshapes with the picture of the usual one of that name: { $n }; the source may mean another one
-message-command-publish-handshapes-without-picture-their-values-have = handshapes without a picture: { $n }; their values have no posture
-message-command-publish-signs-whose-movement-has-no-arms = signs whose movement has no arms to show: { $n }
-message-command-publish-movement-cut-after-3600-frames = movement cut after 3600 frames: { $glosses }
-message-command-publish-touch-lost-on-program-s-own = a touch is lost on the program's own body: { $glosses }
+line-command-publish-handshapes-without-picture-their-values-have = handshapes without a picture: { $n }; their values have no posture
+line-command-publish-signs-whose-movement-has-no-arms = signs whose movement has no arms to show: { $n }
+line-command-publish-movement-cut-after-3600-frames = movement cut after 3600 frames: { $glosses }
+line-command-publish-touch-lost-on-program-s-own = a touch is lost on the program's own body: { $glosses }
 message-command-publish-minimal-pairs-left-out-there-more = minimal pairs are left out: there are more than 5,000,000, as the signs are coded in few fields
 message-command-publish-without-movement = without movement: { $signs } ({ $first }): { $why }
 message-command-publish-not-published = not published: { $signs } ({ $first }): { $why }

@@ -1,8 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-recombine-there-already-stays-replace-instead-as = { $gloss } was there already and stays; --replace { $other } instead of --as puts a sign in its place
-message-command-recombine-stored-as-token-recording-s = stored { $gloss } as token:{ $token }, recording { $name }, { $seconds } s: { $recipe }
-message-command-recombine-s-not-stored-give-gloss-with = { $seconds } s, not stored (give it a gloss with --as): { $recipe }
+message-command-recombine-there-already-stays-replace-instead-as = note: { $gloss } was there already and stays; --replace { $other } instead of --as puts a sign in its place
+line-command-recombine-stored-as-token-recording-s = stored { $gloss } as token:{ $token }, recording { $name }, { $seconds } s: { $recipe }
+line-command-recombine-s-not-stored-give-gloss-with = { $seconds } s, not stored (give it a gloss with --as): { $recipe }
 
 ## Help of commands and options.
 

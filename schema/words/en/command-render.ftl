@@ -4,8 +4,8 @@ message-command-render-drew-frames-kb = drew { $what } to { $path }: { $n } fram
 message-command-render-drew-1-frame-kb = drew { $what } to { $path }: 1 frame, { $size } KB
 message-command-render-drew-symbols-kb = drew { $what } to { $path }: { $n } symbols, { $size } KB
 message-command-render-drew-1-symbol-kb = drew { $what } to { $path }: 1 symbol, { $size } KB
-message-command-render-has-no-movement-own-notation-animated = { $name } has no movement of its own: its notation was animated on { $body }
-message-command-render-has-no-notation-transcribed-from-movement = { $name } has no notation: it was transcribed from its movement, and not stored
+line-command-render-has-no-movement-own-notation-animated = { $name } has no movement of its own: its notation was animated on { $body }
+line-command-render-has-no-notation-transcribed-from-movement = { $name } has no notation: it was transcribed from its movement, and not stored
 message-command-render-speed-number-from = a speed is a number from { $least } to { $most }
 
 ## Help of commands and options.

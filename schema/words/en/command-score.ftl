@@ -1,8 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-score-distance-in-all-for-each-frame = distance { $n } in all, { $mean } for each frame of the two (0: the same movement; each part is in its own scale)
-message-command-score-largest-distance-joint-cm = largest distance of a joint: { $cm } cm
-message-command-score-alignment = alignment: { $n }
+line-command-score-largest-distance-joint-cm = largest distance of a joint: { $cm } cm
+line-command-score-alignment = alignment: { $n }
 message-command-score-score-0-alike-without-ratio-lengths = score { $n } (0: alike); without the ratio of lengths { $other }, ratio { $ratio }; a phase is empty in one of them and left out
 message-command-score-score-0-alike-without-ratio-lengths-ratio = score { $n } (0: alike); without the ratio of lengths { $other }, ratio { $ratio }
 

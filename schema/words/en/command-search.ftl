@@ -1,11 +1,11 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-search-saved-search-deleted = saved search @{ $name } deleted: { $query }
+line-command-search-saved-search-deleted = saved search @{ $name } deleted: { $query }
 message-command-search-saved-stands-for-this-query = saved: @{ $name } stands for this query
-message-command-search-1-token = 1 token: { $query }
-message-command-search-0-tokens = 0 tokens: { $query }
-message-command-search-tokens = { $n } tokens: { $query }
-message-command-search-tokens-shown = { $n } tokens, { $shown } shown: { $query }
+line-command-search-1-token = 1 token: { $query }
+line-command-search-0-tokens = 0 tokens: { $query }
+line-command-search-tokens = { $n } tokens: { $query }
+line-command-search-tokens-shown = { $n } tokens, { $shown } shown: { $query }
 message-command-search-there-no-table-write = there is no table to write
 message-command-search-name-fields-with-count-cross = name its fields with --count or --cross
 message-command-search-write-number-all = write a number, or all

@@ -1,29 +1,29 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-stats-entries-compared-different-forms = entries: { $n }, compared: { $m }, different forms: { $k }
-message-command-stats-entropy-forms-in-bits = entropy of forms in bits: { $number }
-message-command-stats-values-in-entries-entries-without-one = { $field }: { $n } values in { $given } entries, { $empty } entries without one
-message-command-stats-entropy-in-bits-without-empty-cells = entropy in bits: { $all }; without empty cells: { $given }
-message-command-stats-functional-load = functional load: { $number }
-message-command-stats-contrasts = contrasts: - ({ $why })
+line-command-stats-entries-compared-different-forms = entries: { $n }, compared: { $m }, different forms: { $k }
+line-command-stats-entropy-forms-in-bits = entropy of forms in bits: { $number }
+line-command-stats-values-in-entries-entries-without-one = { $field }: { $n } values in { $given } entries, { $empty } entries without one
+line-command-stats-entropy-in-bits-without-empty-cells = entropy in bits: { $all }; without empty cells: { $given }
+line-command-stats-functional-load = functional load: { $number }
+line-command-stats-contrasts = contrasts: - ({ $why })
 message-command-stats-contrasts-distinguish-signs-largest-load-first = contrasts that distinguish signs, the largest load first; ∅ is the empty cell
-message-command-stats-contrasts-not-shown-json-has-all = contrasts that are not shown: { $n }; --json has all
-message-command-stats-rows-not-shown-json-has-all = rows that are not shown: { $n }; --json has all
-message-command-stats-columns-not-shown-json-has-all = columns that are not shown: { $n }; --json has all
-message-command-stats-exceptions-not-shown-json-has-all = exceptions that are not shown: { $n }; --json has all
-message-command-stats-entries-with-both-left-out = { $one } × { $other }: { $n } entries with both, { $m } left out
-message-command-stats-mutual-information-in-bits-shuffled-p = mutual information in bits: { $bits } (shuffled: { $mean }), p { $p }
-message-command-stats-chi-square-shuffled-df-p = chi-square: { $value } (shuffled: { $mean }), df { $df }, p { $p }
-message-command-stats-cramer-s-v = Cramér's V: { $value }
-message-command-stats-one-handed-symmetrical-asymmetrical-no-known = one-handed: { $n }, symmetrical: { $s }, asymmetrical: { $a }, of no known type: { $o }
-message-command-stats-unmarked-handshapes = unmarked handshapes: { $list }
-message-command-stats-symmetry-both-handshapes-given-same-different = symmetry: both handshapes given { $n }, the same { $same }, different { $other }; kept by { $share }
+line-command-stats-contrasts-not-shown-json-has-all = contrasts that are not shown: { $n }; --json has all
+line-command-stats-rows-not-shown-json-has-all = rows that are not shown: { $n }; --json has all
+line-command-stats-columns-not-shown-json-has-all = columns that are not shown: { $n }; --json has all
+line-command-stats-exceptions-not-shown-json-has-all = exceptions that are not shown: { $n }; --json has all
+line-command-stats-entries-with-both-left-out = { $one } × { $other }: { $n } entries with both, { $m } left out
+line-command-stats-mutual-information-in-bits-shuffled-p = mutual information in bits: { $bits } (shuffled: { $mean }), p { $p }
+line-command-stats-chi-square-shuffled-df-p = chi-square: { $value } (shuffled: { $mean }), df { $df }, p { $p }
+line-command-stats-cramer-s-v = Cramér's V: { $value }
+line-command-stats-one-handed-symmetrical-asymmetrical-no-known = one-handed: { $n }, symmetrical: { $s }, asymmetrical: { $a }, of no known type: { $o }
+line-command-stats-unmarked-handshapes = unmarked handshapes: { $list }
+line-command-stats-symmetry-both-handshapes-given-same-different = symmetry: both handshapes given { $n }, the same { $same }, different { $other }; kept by { $share }
 message-command-stats-dominance-both-handshapes-given-same-different = dominance: both handshapes given { $n }, the same { $same }, different { $other }, of these with an unmarked weak hand { $k }; kept by { $share }; weak hand unmarked in { $all }
 message-command-stats-entries-do-not-keep-symmetry = entries that do not keep symmetry: { $n }
 message-command-stats-entries-do-not-keep-dominance = entries that do not keep dominance: { $n }
-message-command-stats-without-one-handshapes = without one of the handshapes: { $list }
-message-command-stats-entries = entries: { $list }
-message-command-stats-table = table: { $path }
+line-command-stats-without-one-handshapes = without one of the handshapes: { $list }
+line-command-stats-entries = entries: { $list }
+line-command-stats-table = table: { $path }
 
 ## Help of commands and options.
 

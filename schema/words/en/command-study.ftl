@@ -1,19 +1,19 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-study-answered-by = answered by { $count }
-message-command-study-questionnaire-films-orders-trials-kb = questionnaire { $path }: { $n } films, { $orders } orders of trials, { $size } KB
+line-command-study-answered-by = answered by { $count }
+line-command-study-questionnaire-films-orders-trials-kb = questionnaire { $path }: { $n } films, { $orders } orders of trials, { $size } KB
 message-command-study-plan-names-picture-missing = the plan names a picture that is missing: { $path }
 message-command-study-these-clips-give-same-film = these clips give the same film: { $one }; { $other }
-message-command-study-new-replaced-unchanged-answers-stored = { $files }: { $n } new, { $more } replaced, { $same } unchanged; { $count } answers stored
+line-command-study-new-replaced-unchanged-answers-stored = { $files }: { $n } new, { $more } replaced, { $same } unchanged; { $count } answers stored
 message-command-study-nothing-stored-this-dry-run = nothing was stored: this was a dry run
-message-command-study-end-answers-passed-over-not-reached = { $people }, { $n } to the end; { $answers } answers, { $m } passed over, { $k } not reached
-message-command-study-wrote-answers = wrote { $n } answers to { $path }
-message-command-study-deleted-undo-restores-answers-so-file = deleted { $code }; undo restores the answers, so the file still holds them
-message-command-study-participants-answered-analysed = { $n } participants answered, { $m } are analysed
-message-command-study-report = report: { $path }
-message-command-study-rho = { $measure } and { $question }: rho { $rho }
+line-command-study-end-answers-passed-over-not-reached = { $people }, { $n } to the end; { $answers } answers, { $m } passed over, { $k } not reached
+line-command-study-wrote-answers = wrote { $n } answers to { $path }
+line-command-study-deleted-undo-restores-answers-so-file = deleted { $code }; undo restores the answers, so the file still holds them
+line-command-study-participants-answered-analysed = { $n } participants answered, { $m } are analysed
+line-command-study-report = report: { $path }
+line-command-study-rho = { $measure } and { $question }: rho { $rho }
 message-command-study-left-out = left out: { $n }: { $why }
-message-command-study-deleted-study = deleted the study { $name }
+line-command-study-deleted-study = deleted the study { $name }
 message-command-study-replaced-plan-nobody-had-answered = replaced the plan, which nobody had answered
 message-command-study-stored-plan = stored the plan
 message-command-study-write-name-recipe-with-for-item = write a name, =, and a recipe with { "{" }{ "}" } for the item: 'captured={ "{" }{ "}" }'

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-suggest-possible-pairs-in-one-sign-not = possible pairs, in which one sign is not coded for all fields ({ $n } of { $all }):
-message-command-suggest-values-no-sign-has-with-rest = values of { $field } that no sign has with the rest: { $list }
+line-command-suggest-possible-pairs-in-one-sign-not = possible pairs, in which one sign is not coded for all fields ({ $n } of { $all }):
+line-command-suggest-values-no-sign-has-with-rest = values of { $field } that no sign has with the rest: { $list }
 message-command-suggest-no-sign-differs-from-in-one = no sign differs from it in one component only
 
 ## Help of commands and options.

@@ -1,13 +1,13 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-commands-no-room-for-width-0-shows = no room for: { $names }; --width 0 shows all columns
+line-commands-no-room-for-width-0-shows = no room for: { $names }; --width 0 shows all columns
 message-commands-would-change = would change: { $n }
 message-commands-changed = changed: { $n }
-message-commands-not-used = not used: { $names }
+line-commands-not-used = not used: { $names }
 message-commands-nothing-stored = nothing was stored
-message-commands-left-out = left out: { $what }
-message-commands-drew = drew { $path }
-message-commands-made = made { $path }
+line-commands-left-out = left out: { $what }
+line-commands-drew = drew { $path }
+line-commands-made = made { $path }
 message-commands-tokens = tokens: { $list }
 message-commands-write-in-utf-8-name-file = write it in UTF-8, or name a file
 message-commands-standard-input-no-text = standard input is no text

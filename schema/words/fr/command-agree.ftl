@@ -1,15 +1,15 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-agree-tolerance-time-0-more = une tolérance est un temps, 0 ou plus
-message-command-agree-table-disagreements = table des désaccords : { $path }
+line-command-agree-table-disagreements = table des désaccords : { $path }
 message-command-agree-write-80ms-0-08s = écrivez 80ms, ou 0.08s
-message-command-agree-on-tier-on-both-agree-decide = sur l’acteur { $name } : accord des deux pour { $annotations } ; à trancher : { $conflicts }
-message-command-agree-has-units-has-in = unités de { $a } : { $n } ; de { $b } : { $m } ; dans { $pairs }
-message-command-agree-matched-them-with-equal-values-only = en correspondance : { $n }, dont de même valeur : { $equal } ; seulement a : { $a }, seulement b : { $b }
+line-command-agree-on-tier-on-both-agree-decide = sur l’acteur { $name } : accord des deux pour { $annotations } ; à trancher : { $conflicts }
+line-command-agree-has-units-has-in = unités de { $a } : { $n } ; de { $b } : { $m } ; dans { $pairs }
+line-command-agree-matched-them-with-equal-values-only = en correspondance : { $n }, dont de même valeur : { $equal } ; seulement a : { $a }, seulement b : { $b }
 message-command-agree-disagreements-in-alignment-only-only-b = désaccords dans l’alignement : seulement a { $a }, seulement b { $b }, autre valeur { $value }, début ou fin { $boundary }
-message-command-agree-start-b-less-end-median-quartiles = début de b moins a : { $onset } ; fin : { $offset } (médiane et quartiles, en ms)
+line-command-agree-start-b-less-end-median-quartiles = début de b moins a : { $onset } ; fin : { $offset } (médiane et quartiles, en ms)
 message-command-agree-too-few-units-values-for-figures = trop peu d’unités ou de valeurs pour des mesures ; --json les calcule quand même
-message-command-agree-values-not-shown-json-has-all = valeurs qui ne sont pas affichées : { $n } ; --json les a toutes
+line-command-agree-values-not-shown-json-has-all = valeurs qui ne sont pas affichées : { $n } ; --json les a toutes
 
 ## Help of commands and options.
 

@@ -1,14 +1,14 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-annotate-nothing-written-would = rien n’est écrit ; ce serait :
-message-command-annotate-added-tier = ajouté : tier:{ $id }, { $name }
-message-command-annotate-changed-tier = modifié : tier:{ $id }, { $name }
-message-command-annotate-changed-recording = modifié : recording:{ $id }, { $name }
-message-command-annotate-changed-signer = modifié : signer:{ $id }, { $name }
-message-command-annotate-changed = modifié : { $gloss }
-message-command-annotate-removed-with = retiré : { $names } avec { $n }
-message-command-annotate-token-citation-form = token:{ $id } est la forme de citation de { $gloss }
-message-command-annotate-at-s = { $tier } de { $recording } à { $time } s : { $from } -> { $to }
+line-command-annotate-added-tier = ajouté : tier:{ $id }, { $name }
+line-command-annotate-changed-tier = modifié : tier:{ $id }, { $name }
+line-command-annotate-changed-recording = modifié : recording:{ $id }, { $name }
+line-command-annotate-changed-signer = modifié : signer:{ $id }, { $name }
+line-command-annotate-changed = modifié : { $gloss }
+line-command-annotate-removed-with = retiré : { $names } avec { $n }
+line-command-annotate-token-citation-form = token:{ $id } est la forme de citation de { $gloss }
+line-command-annotate-at-s = { $tier } de { $recording } à { $time } s : { $from } -> { $to }
 message-command-annotate-write-time-such-as-0-2s = écrivez un temps comme 0.2s ou -200ms
 message-command-annotate-write-language-text-such-as-fr = écrivez LANGUE=TEXTE, comme fr=escargot
 message-command-annotate-role-names-hand-hand-says = --role nomme la main { $own }, et --hand dit { $other }

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-check-mended = réparé : { $what }
-message-command-check-not-damage-but-against-rules-tiers = pas des dégâts, mais contraires aux règles des acteurs : { $count }
+line-command-check-mended = réparé : { $what }
+line-command-check-not-damage-but-against-rules-tiers = pas des dégâts, mais contraires aux règles des acteurs : { $count }
 message-command-check-all-well-looked-at = tout va bien ; vérifié : { $list }
 message-command-check-there-faults-looked-at = il y a des défauts ; vérifié : { $list }
 message-command-check-check-cannot-go-on-take-backup = la vérification ne peut pas continuer : prenez une sauvegarde, ou sauvez ce qui se lit avec `chereme export CORPUS all --to DOSSIER`

@@ -1,14 +1,14 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-choose-more-not-compared = pas comparées non plus : { $n }
-message-command-choose-performances-for-compared = { $n } exécutions de { $function } pour { $sign }, { $order } ; comparé : { $channels }
+line-command-choose-more-not-compared = pas comparées non plus : { $n }
+line-command-choose-performances-for-compared = { $n } exécutions de { $function } pour { $sign }, { $order } ; comparé : { $channels }
 message-command-choose-most-similar-own-face-first = d’abord la plus semblable à son propre visage
 message-command-choose-least-similar-own-face-first = d’abord la moins semblable à son propre visage
 message-command-choose-most-usual-first = d’abord la plus habituelle
-message-command-choose-left-out-as-they-unknown = laissés de côté, car inconnus : { $names }
+line-command-choose-left-out-as-they-unknown = laissés de côté, car inconnus : { $names }
 message-command-choose-comparisons-with-phases-too-different-lengths = comparaisons de phases de durées trop différentes pour la fenêtre de 10 images, qui a été élargie : { $n }
-message-command-choose-each-compared-with-others = comparaisons de chacune avec d’autres : { $n }
-message-command-choose-not-compared = pas comparée : { $token } : { $why }
+line-command-choose-each-compared-with-others = comparaisons de chacune avec d’autres : { $n }
+line-command-choose-not-compared = pas comparée : { $token } : { $why }
 
 ## Help of commands and options.
 

@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-completions-wrote = écrit : { $n } dans { $path }
+line-command-completions-wrote = écrit : { $n } dans { $path }
 
 ## Help of commands and options.
 

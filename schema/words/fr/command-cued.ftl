@@ -3,18 +3,18 @@
 message-command-cued-markers-their-positions-visible-missing = { $name } : { $n } marqueurs, { $share } % de leurs positions visibles ; il manque { $names }
 message-command-cued-markers-their-positions-visible-missing-2 = { $name } : { $n } marqueurs, { $share } % de leurs positions visibles ; il en manque { $missing }
 message-command-cued-markers-their-positions-visible = { $name } : { $n } marqueurs, { $share } % de leurs positions visibles
-message-command-cued-frames-at-second-hidden-places-restored = { $n } images à { $rate } par seconde ; positions cachées restaurées : { $hidden }
+line-command-cued-frames-at-second-hidden-places-restored = { $n } images à { $rate } par seconde ; positions cachées restaurées : { $hidden }
 message-command-cued-nothing-stored-store-writes-tiers = rien n’a été enregistré ; --store écrit des acteurs
 message-command-cued-nothing-stored-as-gloss-stores = rien n’a été enregistré ; --as GLOSE l’enregistre
 message-command-cued-recognised-after-training-on = reconnu : { $what }, appris sur { $other }
 message-command-cued-recognisers-tested-on-keys-from-they = la reconnaissance a été éprouvée sur les clés dont elle a appris
 message-command-cued-movements-from-pairs-keys-components-miss = mouvements de { $recordings } : { $n } ; paires de clés : { $found } sur { $all } ; les composants manquent les marqueurs de { $mm } mm
 message-command-cued-script-sentences-pairs-them-in-dictionary = le script : { $n } phrases, { $pairs } paires, dont { $share } % dans le dictionnaire ; différentes qui manquent : { $missing }
-message-command-cued-keys-predicted-by-produced-as-predicted = clés prévues par { $code } : { $n }, produites : { $produced } ({ $rate }), comme prévu : { $same }
-message-command-cued-right-shown-in-rows-recognised-in = { $name } : { $share } % justes ; montrées en lignes, reconnues en colonnes
+line-command-cued-keys-predicted-by-produced-as-predicted = clés prévues par { $code } : { $n }, produites : { $produced } ({ $rate }), comme prévu : { $same }
+line-command-cued-right-shown-in-rows-recognised-in = { $name } : { $share } % justes ; montrées en lignes, reconnues en colonnes
 message-command-cued-keys-in-s-exact-stand-in = clés en { $seconds } s : { $n }, dont exactes : { $exact }, à la place d’autres : { $others }, synthétiques : { $synthetic } ; coût { $cost }
-message-command-cued-read-back-shapes-placements = relu : { $shapes } % des formes, { $placements } % des emplacements
-message-command-cued-stored-as = enregistré sous { $name }
+line-command-cued-read-back-shapes-placements = relu : { $shapes } % des formes, { $placements } % des emplacements
+line-command-cued-stored-as = enregistré sous { $name }
 
 ## Help of commands and options.
 

@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-export-wrote-mb = écrit : { $n }, { $size } Mo, dans { $path }
+line-command-export-wrote-mb = écrit : { $n }, { $size } Mo, dans { $path }
 message-command-export-wrote-kb = écrit : { $path }, { $size } Ko
 message-command-export-standard-output-has-no-extension-says = la sortie standard n’a pas d’extension qui dise le format
 message-command-export-name-as-with-format-csv = nommez-le, comme avec --format csv

@@ -1,12 +1,12 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-face-fitted-on-frames = { $system } de { $whose }, ajusté sur { $n } images de { $recording }
-message-command-face-unknown = inconnus : { $names }
-message-command-face-frames-in-track = { $recording } : { $n } images de { $system } dans la piste { $name }
-message-command-face-weights-fitted-on = les poids ont été ajustés sur { $on }
-message-command-face-frames-with-bridged-gaps = images à trous comblés : { $n }
-message-command-face-annotations-written = annotations écrites : { $n }
-message-command-face-stored-from-now-on-these-weights = enregistré : désormais ces poids valent pour tous les visages de { $whose }
+line-command-face-fitted-on-frames = { $system } de { $whose }, ajusté sur { $n } images de { $recording }
+line-command-face-unknown = inconnus : { $names }
+line-command-face-frames-in-track = { $recording } : { $n } images de { $system } dans la piste { $name }
+line-command-face-weights-fitted-on = les poids ont été ajustés sur { $on }
+line-command-face-frames-with-bridged-gaps = images à trous comblés : { $n }
+line-command-face-annotations-written = annotations écrites : { $n }
+line-command-face-stored-from-now-on-these-weights = enregistré : désormais ces poids valent pour tous les visages de { $whose }
 message-command-face-no-face-system = { $name } n’est pas un système de visage
 message-command-face-systems = les systèmes sont : { $names }
 

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-fit-stored-as-track = enregistré comme la piste { $name }
-message-command-fit-frames-skeleton-scaled-by-median-distance = { $n } images ; squelette à l’échelle { $scale } ; distance médiane des marqueurs { $mm } mm
+line-command-fit-stored-as-track = enregistré comme la piste { $name }
+line-command-fit-frames-skeleton-scaled-by-median-distance = { $n } images ; squelette à l’échelle { $scale } ; distance médiane des marqueurs { $mm } mm
 
 ## Help of commands and options.
 

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-history-limit-shows-more = et { $n } ; --limit en montre plus
-message-command-history-rows = lignes : { $names }
+line-command-history-limit-shows-more = et { $n } ; --limit en montre plus
+line-command-history-rows = lignes : { $names }
 message-command-history-write-how-many-operations-1-more = écrivez combien d’opérations, 1 ou plus
 message-command-history-write-number-operation-such-as-12 = écrivez le numéro d’une opération, comme 12
 

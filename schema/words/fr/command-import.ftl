@@ -1,19 +1,19 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-import-more-findings-like-these-all-them = et { $n } constats de plus comme ceux-ci, tous avec --json
+line-command-import-more-findings-like-these-all-them = et { $n } constats de plus comme ceux-ci, tous avec --json
 message-command-import-made = créés : { $list }
 message-command-import-removed = retirés : { $list }
 message-command-import-would-make = créerait : { $list }
 message-command-import-would-remove = retirerait : { $list }
-message-command-import-more-files-imported-without-warning-json = autres fichiers importés sans avertissement : { $n } ; --json donne leurs notes
+line-command-import-more-files-imported-without-warning-json = autres fichiers importés sans avertissement : { $n } ; --json donne leurs notes
 message-command-import-not-read-without-ending = pas lus : { $what } sans extension ({ $why })
-message-command-import-not-read = pas lus : { $what } ({ $why })
+line-command-import-not-read = pas lus : { $what } ({ $why })
 message-command-import-nothing-new = rien de nouveau
-message-command-import-joints-unit-axes-up-left = { $n } articulations, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
+line-command-import-joints-unit-axes-up-left = { $n } articulations, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
 message-command-import-track-points-frames-unit-axes-up = piste { $name } : { $n } points, { $all } images, { $rate }, unité { $unit }, axes haut,gauche = { $axes }
 message-command-import-track-points-frames = piste { $name } : { $n } points, { $all } images, { $rate }
 message-command-import-track-curves-frames = piste { $name } : { $n } courbes, { $all } images, { $rate }
-message-command-import-column = colonne { $name } : { $meaning }
+line-command-import-column = colonne { $name } : { $meaning }
 message-command-import-updated-recording = { $file } : mis à jour -> enregistrement { $name }
 message-command-import-updated = { $file } : mis à jour
 message-command-import-unchanged-recording = { $file } : inchangé -> enregistrement { $name }

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-inventory-added = { $value } ajouté à { $inventory }
-message-command-inventory-from-now-on-annotations-changed-lexicon = { $from } est désormais { $to } ; annotations modifiées : { $n }, entrées du lexique : { $entries }
+line-command-inventory-added = { $value } ajouté à { $inventory }
+line-command-inventory-from-now-on-annotations-changed-lexicon = { $from } est désormais { $to } ; annotations modifiées : { $n }, entrées du lexique : { $entries }
 message-command-inventory-write-language-name-such-as-fr = écrivez LANGUE=NOM, comme fr=poing
 
 ## Help of commands and options.

@@ -1,20 +1,20 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-list-mb-schema-version = { $path } : { $size } Mo, version { $version } du schéma
-message-command-list-holds = contient : { $list }
-message-command-list-movement-hours = mouvement : { $hours } heures, { $frames }
-message-command-list-markers-hours = marqueurs : { $hours } heures, { $frames }
-message-command-list-faces-other-curves-hours = visages et autres courbes : { $hours } heures, { $frames }
+line-command-list-mb-schema-version = { $path } : { $size } Mo, version { $version } du schéma
+line-command-list-holds = contient : { $list }
+line-command-list-movement-hours = mouvement : { $hours } heures, { $frames }
+line-command-list-markers-hours = marqueurs : { $hours } heures, { $frames }
+line-command-list-faces-other-curves-hours = visages et autres courbes : { $hours } heures, { $frames }
 message-command-list-recordings = enregistrements : { $list }
-message-command-list-tracks = pistes : { $list }
+line-command-list-tracks = pistes : { $list }
 message-command-list-tiers = acteurs : { $list }
 message-command-list-signer-handedness-not-known = signeur { $name } : latéralité inconnue, { $n }
 message-command-list-signer-right = signeur { $name } : droitier, { $n }
 message-command-list-signer-left = signeur { $name } : gaucher, { $n }
-message-command-list-signer = signeur { $name } : { $hand }, { $n }
+line-command-list-signer = signeur { $name } : { $hand }, { $n }
 message-command-list-inventories = inventaires : { $list }
-message-command-list-attributes-signs = attributs des signes : { $list }
-message-command-list-last-change-by = dernière modification : { $at } par { $who } : { $what }
+line-command-list-attributes-signs = attributs des signes : { $list }
+line-command-list-last-change-by = dernière modification : { $at } par { $who } : { $what }
 message-command-list-write-column-pattern-such-as-gloss = écrivez COLONNE=MOTIF, comme gloss=BO*
 
 ## Help of commands and options.

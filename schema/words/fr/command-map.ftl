@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-map-left-out-tokens-not-coded-for = laissées de côté : { $n } occurrences qui ne sont pas codées pour ces composants
-message-command-map-drew-signs-kb = signes dessinés dans { $path } : { $n }, { $size } Ko
+line-command-map-left-out-tokens-not-coded-for = laissées de côté : { $n } occurrences qui ne sont pas codées pour ces composants
+line-command-map-drew-signs-kb = signes dessinés dans { $path } : { $n }, { $size } Ko
 
 ## Help of commands and options.
 

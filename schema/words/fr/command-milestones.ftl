@@ -1,6 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-milestones-phases-written-expressions-keep-corrected-milestones = phases écrites : { $n } ; expressions qui gardent des jalons corrigés : { $kept }
+line-command-milestones-phases-written-expressions-keep-corrected-milestones = phases écrites : { $n } ; expressions qui gardent des jalons corrigés : { $kept }
 message-command-milestones-no-tier-names-functions-annotate-wh = aucun acteur ne nomme de fonctions ; annotez wh, yn, negation ou topic sur un acteur appelé "function"
 message-command-milestones-no-such-expression-functions = pas de telle expression ; les fonctions sont : { $names }
 

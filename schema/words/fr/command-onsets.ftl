@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-onsets-expressions-without-face = expressions : { $n } ; sans visage : { $none }
-message-command-onsets-expressions-during-nothing-measured-at-times = expressions pendant lesquelles rien n’a été mesuré par moments : { $n }
+line-command-onsets-expressions-without-face = expressions : { $n } ; sans visage : { $none }
+line-command-onsets-expressions-during-nothing-measured-at-times = expressions pendant lesquelles rien n’a été mesuré par moments : { $n }
 message-command-onsets-expressions-more-than-half-hour-not = expressions de plus d’une demi-heure, qui n’ont pas été examinées : { $n } ; annotez-en de plus courtes
 
 ## Help of commands and options.

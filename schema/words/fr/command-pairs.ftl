@@ -1,9 +1,9 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-pairs-pairs-signs-compared-by-them-certain = paires : { $n }, de { $signs } signes ({ $all } comparés par { $fields }), dont certaines : { $certain } (les deux valeurs sont données)
-message-command-pairs-homonyms-pairs-in-groups-signs-forms = homonymes : paires { $n }, groupes { $groups }, signes { $signs }, formes { $forms }
-message-command-pairs-by-field = par champ : { $list }
-message-command-pairs-in-most-pairs = dans le plus de paires : { $list }
+line-command-pairs-homonyms-pairs-in-groups-signs-forms = homonymes : paires { $n }, groupes { $groups }, signes { $signs }, formes { $forms }
+line-command-pairs-by-field = par champ : { $list }
+line-command-pairs-in-most-pairs = dans le plus de paires : { $list }
 
 ## Help of commands and options.
 

@@ -1,9 +1,9 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-propose-accepted = accepté : { $n }
-message-command-propose-proposed-in = proposé : { $annotations } dans { $recordings }
-message-command-propose-nothing-examine-in = rien à examiner dans { $recordings }
-message-command-propose-in-for-could-not-read-from = { $annotations } dans { $recordings }, pour { $tokens } ; illisible dans le mouvement : { $unread }
+line-command-propose-accepted = accepté : { $n }
+line-command-propose-proposed-in = proposé : { $annotations } dans { $recordings }
+line-command-propose-nothing-examine-in = rien à examiner dans { $recordings }
+line-command-propose-in-for-could-not-read-from = { $annotations } dans { $recordings }, pour { $tokens } ; illisible dans le mouvement : { $unread }
 
 ## Help of commands and options.
 

@@ -1,13 +1,13 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-publish-published-them-with-movement = publié : { $signs }, dont avec mouvement { $moving } : { $path }
-message-command-publish-signers-files-kb = signeurs : { $n } ; fichiers : { $files }, { $size } Ko
-message-command-publish-terms = conditions { $terms } : { $n }
+line-command-publish-published-them-with-movement = publié : { $signs }, dont avec mouvement { $moving } : { $path }
+line-command-publish-signers-files-kb = signeurs : { $n } ; fichiers : { $files }, { $size } Ko
+line-command-publish-terms = conditions { $terms } : { $n }
 message-command-publish-handshapes-with-picture-usual-one-name = configurations avec l’image de la configuration usuelle de ce nom : { $n } ; la source peut en entendre une autre
-message-command-publish-handshapes-without-picture-their-values-have = configurations sans image : { $n } ; leurs valeurs n’ont pas de posture
-message-command-publish-signs-whose-movement-has-no-arms = signes dont le mouvement n’a pas de bras à montrer : { $n }
-message-command-publish-movement-cut-after-3600-frames = mouvement coupé après 3600 images : { $glosses }
-message-command-publish-touch-lost-on-program-s-own = un contact est perdu sur le corps du programme : { $glosses }
+line-command-publish-handshapes-without-picture-their-values-have = configurations sans image : { $n } ; leurs valeurs n’ont pas de posture
+line-command-publish-signs-whose-movement-has-no-arms = signes dont le mouvement n’a pas de bras à montrer : { $n }
+line-command-publish-movement-cut-after-3600-frames = mouvement coupé après 3600 images : { $glosses }
+line-command-publish-touch-lost-on-program-s-own = un contact est perdu sur le corps du programme : { $glosses }
 message-command-publish-minimal-pairs-left-out-there-more = les paires minimales sont laissées de côté : il y en a plus de 5 000 000, car les signes sont codés dans peu de champs
 message-command-publish-without-movement = sans mouvement : { $signs } ({ $first }) : { $why }
 message-command-publish-not-published = non publiés : { $signs } ({ $first }) : { $why }

@@ -1,8 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-recombine-there-already-stays-replace-instead-as = { $gloss } existait déjà et reste ; --replace { $other } au lieu de --as met un signe à sa place
-message-command-recombine-stored-as-token-recording-s = { $gloss } enregistré : token:{ $token }, enregistrement { $name }, { $seconds } s : { $recipe }
-message-command-recombine-s-not-stored-give-gloss-with = { $seconds } s, pas enregistré (donnez-lui une glose avec --as) : { $recipe }
+message-command-recombine-there-already-stays-replace-instead-as = note : { $gloss } existait déjà et reste ; --replace { $other } au lieu de --as met un signe à sa place
+line-command-recombine-stored-as-token-recording-s = { $gloss } enregistré : token:{ $token }, enregistrement { $name }, { $seconds } s : { $recipe }
+line-command-recombine-s-not-stored-give-gloss-with = { $seconds } s, pas enregistré (donnez-lui une glose avec --as) : { $recipe }
 
 ## Help of commands and options.
 

@@ -1,8 +1,8 @@
 ## Messages: `{ $name }` is a variable part.
 
 message-command-score-distance-in-all-for-each-frame = distance { $n } en tout, { $mean } par image des deux (0 : le même mouvement ; chaque partie a sa propre échelle)
-message-command-score-largest-distance-joint-cm = plus grande distance d’une articulation : { $cm } cm
-message-command-score-alignment = alignement : { $n }
+line-command-score-largest-distance-joint-cm = plus grande distance d’une articulation : { $cm } cm
+line-command-score-alignment = alignement : { $n }
 message-command-score-score-0-alike-without-ratio-lengths = score { $n } (0 : pareil) ; sans le rapport des durées { $other }, rapport { $ratio } ; une phase est vide dans l’un des deux et laissée de côté
 message-command-score-score-0-alike-without-ratio-lengths-ratio = score { $n } (0 : pareil) ; sans le rapport des durées { $other }, rapport { $ratio }
 

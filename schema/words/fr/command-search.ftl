@@ -1,11 +1,11 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-search-saved-search-deleted = recherche enregistrée @{ $name } supprimée : { $query }
+line-command-search-saved-search-deleted = recherche enregistrée @{ $name } supprimée : { $query }
 message-command-search-saved-stands-for-this-query = enregistré : @{ $name } vaut pour cette requête
-message-command-search-1-token = 1 occurrence : { $query }
-message-command-search-0-tokens = 0 occurrence : { $query }
-message-command-search-tokens = { $n } occurrences : { $query }
-message-command-search-tokens-shown = { $n } occurrences, dont { $shown } affichées : { $query }
+line-command-search-1-token = 1 occurrence : { $query }
+line-command-search-0-tokens = 0 occurrence : { $query }
+line-command-search-tokens = { $n } occurrences : { $query }
+line-command-search-tokens-shown = { $n } occurrences, dont { $shown } affichées : { $query }
 message-command-search-there-no-table-write = il n’y a pas de table à écrire
 message-command-search-name-fields-with-count-cross = nommez ses champs avec --count ou --cross
 message-command-search-write-number-all = écrivez un nombre, ou all

@@ -1,29 +1,29 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-stats-entries-compared-different-forms = entrées : { $n }, comparées : { $m }, formes différentes : { $k }
-message-command-stats-entropy-forms-in-bits = entropie des formes en bits : { $number }
-message-command-stats-values-in-entries-entries-without-one = { $field } : { $n } valeurs dans { $given } entrées, { $empty } entrées sans valeur
-message-command-stats-entropy-in-bits-without-empty-cells = entropie en bits : { $all } ; sans les cellules vides : { $given }
-message-command-stats-functional-load = charge fonctionnelle : { $number }
-message-command-stats-contrasts = contrastes : - ({ $why })
+line-command-stats-entries-compared-different-forms = entrées : { $n }, comparées : { $m }, formes différentes : { $k }
+line-command-stats-entropy-forms-in-bits = entropie des formes en bits : { $number }
+line-command-stats-values-in-entries-entries-without-one = { $field } : { $n } valeurs dans { $given } entrées, { $empty } entrées sans valeur
+line-command-stats-entropy-in-bits-without-empty-cells = entropie en bits : { $all } ; sans les cellules vides : { $given }
+line-command-stats-functional-load = charge fonctionnelle : { $number }
+line-command-stats-contrasts = contrastes : - ({ $why })
 message-command-stats-contrasts-distinguish-signs-largest-load-first = contrastes qui distinguent des signes, la plus grande charge d’abord ; ∅ est la cellule vide
-message-command-stats-contrasts-not-shown-json-has-all = contrastes non affichés : { $n } ; --json les donne tous
-message-command-stats-rows-not-shown-json-has-all = lignes non affichées : { $n } ; --json les donne toutes
-message-command-stats-columns-not-shown-json-has-all = colonnes non affichées : { $n } ; --json les donne toutes
-message-command-stats-exceptions-not-shown-json-has-all = exceptions non affichées : { $n } ; --json les donne toutes
-message-command-stats-entries-with-both-left-out = { $one } × { $other } : { $n } entrées avec les deux, { $m } laissées de côté
-message-command-stats-mutual-information-in-bits-shuffled-p = information mutuelle en bits : { $bits } (mélangé : { $mean }), p { $p }
-message-command-stats-chi-square-shuffled-df-p = chi carré : { $value } (mélangé : { $mean }), degrés de liberté { $df }, p { $p }
-message-command-stats-cramer-s-v = V de Cramér : { $value }
-message-command-stats-one-handed-symmetrical-asymmetrical-no-known = à une main : { $n }, symétriques : { $s }, asymétriques : { $a }, d’aucun type connu : { $o }
-message-command-stats-unmarked-handshapes = configurations non marquées : { $list }
-message-command-stats-symmetry-both-handshapes-given-same-different = symétrie : les deux configurations données { $n }, les mêmes { $same }, différentes { $other } ; respectée par { $share }
+line-command-stats-contrasts-not-shown-json-has-all = contrastes non affichés : { $n } ; --json les donne tous
+line-command-stats-rows-not-shown-json-has-all = lignes non affichées : { $n } ; --json les donne toutes
+line-command-stats-columns-not-shown-json-has-all = colonnes non affichées : { $n } ; --json les donne toutes
+line-command-stats-exceptions-not-shown-json-has-all = exceptions non affichées : { $n } ; --json les donne toutes
+line-command-stats-entries-with-both-left-out = { $one } × { $other } : { $n } entrées avec les deux, { $m } laissées de côté
+line-command-stats-mutual-information-in-bits-shuffled-p = information mutuelle en bits : { $bits } (mélangé : { $mean }), p { $p }
+line-command-stats-chi-square-shuffled-df-p = chi carré : { $value } (mélangé : { $mean }), degrés de liberté { $df }, p { $p }
+line-command-stats-cramer-s-v = V de Cramér : { $value }
+line-command-stats-one-handed-symmetrical-asymmetrical-no-known = à une main : { $n }, symétriques : { $s }, asymétriques : { $a }, d’aucun type connu : { $o }
+line-command-stats-unmarked-handshapes = configurations non marquées : { $list }
+line-command-stats-symmetry-both-handshapes-given-same-different = symétrie : les deux configurations données { $n }, les mêmes { $same }, différentes { $other } ; respectée par { $share }
 message-command-stats-dominance-both-handshapes-given-same-different = dominance : les deux configurations données { $n }, les mêmes { $same }, différentes { $other }, dont main dominée non marquée { $k } ; respectée par { $share } ; main dominée non marquée dans { $all }
 message-command-stats-entries-do-not-keep-symmetry = entrées qui ne respectent pas la symétrie : { $n }
 message-command-stats-entries-do-not-keep-dominance = entrées qui ne respectent pas la dominance : { $n }
-message-command-stats-without-one-handshapes = sans l’une des configurations : { $list }
-message-command-stats-entries = entrées : { $list }
-message-command-stats-table = table : { $path }
+line-command-stats-without-one-handshapes = sans l’une des configurations : { $list }
+line-command-stats-entries = entrées : { $list }
+line-command-stats-table = table : { $path }
 
 ## Help of commands and options.
 

@@ -1,19 +1,19 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-study-answered-by = a reçu les réponses de { $count }
-message-command-study-questionnaire-films-orders-trials-kb = questionnaire { $path } : { $n } films, { $orders } ordres d’essais, { $size } Ko
+line-command-study-answered-by = a reçu les réponses de { $count }
+line-command-study-questionnaire-films-orders-trials-kb = questionnaire { $path } : { $n } films, { $orders } ordres d’essais, { $size } Ko
 message-command-study-plan-names-picture-missing = le plan nomme une image qui manque : { $path }
 message-command-study-these-clips-give-same-film = ces extraits donnent le même film : { $one } ; { $other }
-message-command-study-new-replaced-unchanged-answers-stored = { $files } : { $n } nouveaux, { $more } remplacés, { $same } inchangés ; { $count } réponses enregistrées
+line-command-study-new-replaced-unchanged-answers-stored = { $files } : { $n } nouveaux, { $more } remplacés, { $same } inchangés ; { $count } réponses enregistrées
 message-command-study-nothing-stored-this-dry-run = rien n’a été enregistré : c’était un essai
-message-command-study-end-answers-passed-over-not-reached = { $people }, dont { $n } jusqu’à la fin ; { $answers } réponses, { $m } passées, { $k } non atteintes
-message-command-study-wrote-answers = { $n } réponses écrites dans { $path }
-message-command-study-deleted-undo-restores-answers-so-file = { $code } supprimé ; undo rétablit les réponses, le fichier les contient donc encore
-message-command-study-participants-answered-analysed = participants : { $n } ont répondu, { $m } sont analysés
-message-command-study-report = rapport : { $path }
-message-command-study-rho = { $measure } et { $question } : rho { $rho }
+line-command-study-end-answers-passed-over-not-reached = { $people }, dont { $n } jusqu’à la fin ; { $answers } réponses, { $m } passées, { $k } non atteintes
+line-command-study-wrote-answers = { $n } réponses écrites dans { $path }
+line-command-study-deleted-undo-restores-answers-so-file = { $code } supprimé ; undo rétablit les réponses, le fichier les contient donc encore
+line-command-study-participants-answered-analysed = participants : { $n } ont répondu, { $m } sont analysés
+line-command-study-report = rapport : { $path }
+line-command-study-rho = { $measure } et { $question } : rho { $rho }
 message-command-study-left-out = écartés : { $n } : { $why }
-message-command-study-deleted-study = étude { $name } supprimée
+line-command-study-deleted-study = étude { $name } supprimée
 message-command-study-replaced-plan-nobody-had-answered = plan remplacé ; personne n’y avait répondu
 message-command-study-stored-plan = plan enregistré
 message-command-study-write-name-recipe-with-for-item = écrivez un nom, =, et une recette avec { "{" }{ "}" } pour l’élément : 'captured={ "{" }{ "}" }'

@@ -1,7 +1,7 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-suggest-possible-pairs-in-one-sign-not = paires possibles, où un signe n’est pas codé pour tous les champs ({ $n } sur { $all }) :
-message-command-suggest-values-no-sign-has-with-rest = valeurs de { $field } qu’aucun signe n’a avec le reste : { $list }
+line-command-suggest-possible-pairs-in-one-sign-not = paires possibles, où un signe n’est pas codé pour tous les champs ({ $n } sur { $all }) :
+line-command-suggest-values-no-sign-has-with-rest = valeurs de { $field } qu’aucun signe n’a avec le reste : { $list }
 message-command-suggest-no-sign-differs-from-in-one = aucun signe n’en diffère par un seul composant
 
 ## Help of commands and options.

@@ -1,13 +1,13 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-commands-no-room-for-width-0-shows = pas de place pour : { $names } ; --width 0 montre toutes les colonnes
+line-commands-no-room-for-width-0-shows = pas de place pour : { $names } ; --width 0 montre toutes les colonnes
 message-commands-would-change = changerait : { $n }
 message-commands-changed = modifié : { $n }
-message-commands-not-used = pas utilisés : { $names }
+line-commands-not-used = pas utilisés : { $names }
 message-commands-nothing-stored = rien n’a été enregistré
-message-commands-left-out = laissé de côté : { $what }
-message-commands-drew = { $path } dessiné
-message-commands-made = créé : { $path }
+line-commands-left-out = laissé de côté : { $what }
+line-commands-drew = { $path } dessiné
+line-commands-made = créé : { $path }
 message-commands-tokens = occurrences : { $list }
 message-commands-write-in-utf-8-name-file = écrivez-le en UTF-8, ou nommez un fichier
 message-commands-standard-input-no-text = l’entrée standard n’est pas du texte

@@ -362,7 +362,7 @@ fn paste(
     for line in &odd {
         let said = output.spoken(&line.fault());
         let place = fill(output.say(trouble::LINE), &[("n", &line.line)]);
-        output.line(format!("{place}{said}"))?;
+        output.line_as_is(&format!("{place}{said}"))?;
     }
     print(report, args.ids, output)
 }
@@ -397,7 +397,7 @@ fn print(mut report: AnnotateReport, all: bool, output: &mut Output) -> Result<(
         0 => output.spoken("nothing changed"),
         _ => annotation_sentence(&report.effect, output.language()),
     };
-    output.line(format!(
+    output.line_as_is(&format!(
         "{}{}{}",
         summary,
         if ids.is_empty() { "" } else { ": " },

@@ -131,7 +131,7 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         .unwrap_or_default();
     let token = args.chosen.clone().unwrap_or(first);
     let made = corpus.animate_choice(&choice, &token, gloss)?;
-    output.line(format!("{gloss} = {}", made.recipe))?;
+    output.line_as_is(&format!("{gloss} = {}", made.recipe))?;
     let mut document = serde_json::to_value(&choice)?;
     document["recipe"] = json!(made.recipe);
     document["made"] = json!(made);

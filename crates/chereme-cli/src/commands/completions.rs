@@ -37,7 +37,7 @@ pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     let mut script = Vec::new();
     clap_complete::generate(args.shell, &mut Cli::command(), "chereme", &mut script);
     let script = String::from_utf8(script)?;
-    output.line(script.trim_end())?;
+    output.line_as_is(script.trim_end())?;
     output.document(serde_json::json!({ "shell": args.shell.to_string(), "script": script }))
 }
 
@@ -46,7 +46,7 @@ pub(super) fn man(_: &Cli, args: &ManArgs, output: &mut Output) -> Result<()> {
         let mut page = Vec::new();
         clap_mangen::Man::new(Cli::command()).render(&mut page)?;
         let page = String::from_utf8(page)?;
-        output.line(page.trim_end())?;
+        output.line_as_is(page.trim_end())?;
         return output.document(serde_json::json!({ "page": page }));
     };
     let fault = |error| Error::file(folder, error);

@@ -65,7 +65,7 @@ fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<
         true => words::NOTHING_WRITTEN,
         false => words::DELETED,
     };
-    output.line(output.say(title))?;
+    output.text_line(title, &[])?;
     for it in &done.recordings {
         let own = it.belongings;
         let parts = [
@@ -75,7 +75,7 @@ fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<
             (own.tokens, "tokens"),
         ];
         let parts = parts.map(|(count, noun)| output.counted(count, noun));
-        output.line(format!(
+        output.line_as_is(&format!(
             "  recording:{} {:?}: {}",
             it.recording,
             it.name,
@@ -83,10 +83,10 @@ fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<
         ))?;
     }
     for gloss in &done.signs {
-        output.line(format!("  sign:{gloss}"))?;
+        output.line_as_is(&format!("  sign:{gloss}"))?;
     }
     if done.annotations > 0 {
-        output.line(format!(
+        output.line_as_is(&format!(
             "  {}",
             output.counted(done.annotations, "annotations")
         ))?;
@@ -98,9 +98,9 @@ fn print(done: &Deleted, dependents: Dependents, output: &mut Output) -> Result<
         Dependents::Keep => words::KEPT,
         _ => words::PREVENTED_BY,
     };
-    output.line(output.say(title))?;
+    output.text_line(title, &[])?;
     for it in &done.dependents {
-        output.line(format!("  {} {:?}", it.address, it.recording))?;
+        output.line_as_is(&format!("  {} {:?}", it.address, it.recording))?;
     }
     Ok(())
 }

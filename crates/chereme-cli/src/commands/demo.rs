@@ -284,7 +284,7 @@ impl Demo {
             format!("chereme log {corpus}      # and: chereme undo {corpus}"),
             "chereme import mine.chereme FOLDER-OF-BVH-AND-EAF --dry-run".to_owned(),
         ] {
-            output.line(format!("  {line}"))?;
+            output.line_as_is(&format!("  {line}"))?;
         }
         Ok(())
     }

@@ -4,7 +4,6 @@ use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Result;
-use chereme_corpus::words::fill;
 use chereme_corpus::words::merge as words;
 use chereme_corpus::{CompareSide, Difference, Error};
 
@@ -92,15 +91,15 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
         let fields = fields.join(", ");
         let parts: [(&str, &dyn std::fmt::Display); 3] =
             [("tier", &tier), ("to", &to), ("what", &fields)];
-        output.line(fill(output.say(text), &parts))?;
+        output.text_line(text, &parts)?;
     }
     for it in &found.removed {
         let times = span(it.start_us, it.end_us);
-        output.line(format!("- {} {times} {:?}", it.tier, it.value))?;
+        output.line_as_is(&format!("- {} {times} {:?}", it.tier, it.value))?;
     }
     for it in &found.added {
         let times = span(it.start_us, it.end_us);
-        output.line(format!("+ {} {times} {:?}", it.tier, it.value))?;
+        output.line_as_is(&format!("+ {} {times} {:?}", it.tier, it.value))?;
     }
     for it in &found.moved {
         let (from, to) = (span(it.from[0], it.from[1]), span(it.to[0], it.to[1]));
@@ -109,11 +108,14 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
             .as_ref()
             .map(|it| format!(" {it}"))
             .unwrap_or_default();
-        output.line(format!("> {} {from} → {to}{tier} {:?}", it.tier, it.value))?;
+        output.line_as_is(&format!("> {} {from} → {to}{tier} {:?}", it.tier, it.value))?;
     }
     for it in &found.revalued {
         let times = span(it.start_us, it.end_us);
-        output.line(format!("~ {} {times} {:?} → {:?}", it.tier, it.from, it.to))?;
+        output.line_as_is(&format!(
+            "~ {} {times} {:?} → {:?}",
+            it.tier, it.from, it.to
+        ))?;
     }
     for it in &found.document {
         output.line(it)?;
@@ -126,5 +128,5 @@ pub(super) fn print(found: &Difference, output: &mut Output) -> Result<()> {
         found.revalued.len(),
         output.counted(found.tiers.len() as u64, "tiers")
     );
-    output.line(line)
+    output.line_as_is(&line)
 }

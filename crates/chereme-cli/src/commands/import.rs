@@ -374,15 +374,13 @@ fn print_file(file: &FileReport, output: &mut Output) -> Result<()> {
         FileStatus::Unchanged => ": unchanged",
         FileStatus::Refused => ": REFUSED",
     };
-    let recording = file
-        .recording
-        .as_ref()
-        .map(|name| format!(" -> recording {name:?}"));
-    output.line(format!(
-        "{}{status}{}",
-        file.path,
-        recording.unwrap_or_default()
-    ))?;
+    match &file.recording {
+        Some(name) => output.filled_line(
+            &format!("{{file}}{status} -> recording {{name}}"),
+            &[&file.path, &format_args!("{name:?}")],
+        )?,
+        None => output.filled_line(&format!("{{file}}{status}"), &[&file.path])?,
+    }
     if let Some(movement) = &file.understood.movement {
         output.filled_line(
             "  {n} joints, {rate}, unit {unit}, axes up,left = {axes}",
@@ -451,11 +449,12 @@ pub(super) fn print_finding(finding: &ReportFinding, output: &mut Output) -> Res
         None => String::new(),
     };
     let said = output.spoken(&finding.message);
-    output.line(format!("  {}: {line}{said}", finding.severity))?;
+    let form = format!("  {}: {{what}}", finding.severity);
+    output.filled_line(&form, &[&format!("{line}{said}")])?;
     if let Some(remedy) = &finding.remedy {
         let what = output.spoken(remedy.text());
         let remedy = fill(output.say(trouble::WHAT_TO_DO), &[("what", &what)]);
-        output.line(format!("  {remedy}"))?;
+        output.line_as_is(&format!("  {remedy}"))?;
     }
     Ok(())
 }

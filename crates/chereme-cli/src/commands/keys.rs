@@ -161,12 +161,12 @@ pub(super) fn run(_: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         (None, None) => bail!("there is nothing to read; write a text, or --from FILE"),
     };
     for word in &found.words {
-        output.line(format!("{}: {}", word.text, word.phones.join(" ")))?;
+        output.line_as_is(&format!("{}: {}", word.text, word.phones.join(" ")))?;
     }
     let rows: Vec<Vec<String>> = found.keys.iter().map(row).collect();
     output.table(&["shape", "placement", "phones", "seconds"], &rows)?;
     for finding in &found.findings {
-        output.line(output.spoken(finding))?;
+        output.line_as_is(&output.spoken(finding))?;
     }
     output.document(found)
 }

@@ -4,7 +4,6 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
-use chereme_corpus::words::fill;
 use chereme_corpus::words::merge as words;
 use chereme_corpus::{
     CorpusConflict, Decision, Error, ImportOptions, MergeReport, OwnEdits, Progress, merge_files,
@@ -132,26 +131,25 @@ fn print(report: &MergeReport, output: &mut Output) -> Result<()> {
             .collect();
         if !counts.is_empty() {
             said = true;
-            let line = fill(output.say(text), &[("what", &counts.join(", "))]);
-            output.line(line)?;
+            output.text_line(text, &[("what", &counts.join(", "))])?;
         }
     }
     if !said {
-        output.line(output.say(words::NOTHING))?;
+        output.text_line(words::NOTHING, &[])?;
     }
     for note in &report.notes {
         output.note(note)?;
     }
     list(&report.conflicts, output)?;
     if !report.conflicts.is_empty() {
-        output.line(output.say(words::DECIDE))?;
+        output.text_line(words::DECIDE, &[])?;
     }
     Ok(())
 }
 
 fn list(conflicts: &[CorpusConflict], output: &mut Output) -> Result<()> {
     if conflicts.is_empty() {
-        return output.line(output.say(words::NO_CONFLICTS));
+        return output.text_line(words::NO_CONFLICTS, &[]);
     }
     let shown = |side: &Option<chereme_corpus::Candidate>| match side {
         Some(side) => output.spoken(&side.to_string()),
@@ -210,7 +208,7 @@ fn file_into_corpus(cli: &Cli, args: &MergeArgs, output: &mut Output) -> Result<
     for file in &report.files {
         for finding in &file.findings {
             let said = output.spoken(&finding.message);
-            output.line(format!("{}: {said}", finding.severity))?;
+            output.filled_line(&format!("{}: {{what}}", finding.severity), &[&said])?;
         }
     }
     let conflicts = corpus.conflicts(false)?;
@@ -256,8 +254,7 @@ fn files(args: &MergeArgs, output: &mut Output) -> Result<()> {
         let (mine, theirs) = (shown(&it.mine), shown(&it.theirs));
         let parts: [(&str, &dyn std::fmt::Display); 3] =
             [("tier", &it.tier), ("mine", &mine), ("theirs", &theirs)];
-        let line = fill(output.say(words::CONFLICT), &parts);
-        output.line(line)?;
+        output.text_line(words::CONFLICT, &parts)?;
     }
     output.document(merged)
 }

@@ -156,5 +156,5 @@ fn print_left_out(it: &LeftOut, output: &mut Output) -> Result<()> {
         true => format!("without movement: {signs} ({first}): {why}"),
         false => format!("not published: {signs} ({first}): {why}"),
     })?;
-    output.line(format!("  {}", output.spoken(it.remedy.text())))
+    output.line_as_is(&format!("  {}", output.spoken(it.remedy.text())))
 }

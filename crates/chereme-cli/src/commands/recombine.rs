@@ -89,9 +89,11 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     print(&done, args.explain, args.draw.as_deref(), output)?;
     if args.gloss.is_some() && one_more(&done) {
         let gloss = &done.gloss;
-        output.line(format!(
-            "note: {gloss} was there already and stays; --replace {gloss} instead of --as puts a sign in its place"
-        ))?;
+        output.filled_line(
+            "note: {gloss} was there already and stays; --replace {other} instead of --as puts a \
+             sign in its place",
+            &[gloss, gloss],
+        )?;
     }
     Ok(())
 }

@@ -163,13 +163,15 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         )?;
     }
     let more = answer.total.saturating_sub(rows.len());
-    let more = if more > 0 {
-        format!(", {} shown", rows.len())
-    } else {
-        String::new()
-    };
-    let word = if answer.total == 1 { "token" } else { "tokens" };
-    output.line(format!("{} {word}{more}: {}", answer.total, answer.query))?;
+    match (answer.total, more) {
+        (1, 0) => output.filled_line("1 token: {query}", &[&answer.query])?,
+        (0, 0) => output.filled_line("0 tokens: {query}", &[&answer.query])?,
+        (total, 0) => output.filled_line("{n} tokens: {query}", &[&total, &answer.query])?,
+        (total, _) => output.filled_line(
+            "{n} tokens, {shown} shown: {query}",
+            &[&total, &rows.len(), &answer.query],
+        )?,
+    }
     let shown = args.facets.unwrap_or(TABLE_FACETS);
     for (field, values) in &answer.facets {
         let counts: Vec<String> = values
@@ -229,7 +231,7 @@ fn tally(corpus: &mut Corpus, args: &Args, fields: &[String], output: &mut Outpu
             let tabs = separated == TableFormat::Tsv;
             let head: Vec<String> = header.iter().map(|cell| (*cell).to_owned()).collect();
             for cells in [head].iter().chain(&rows) {
-                output.line(separated_line(cells, tabs))?;
+                output.line_as_is(&separated_line(cells, tabs))?;
             }
         }
     }

@@ -60,10 +60,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
     };
     drop(bar);
     if args.names {
-        output.line(written.symbols.join(" "))?;
+        output.line_as_is(&written.symbols.join(" "))?;
     } else {
-        output.line(format!("{}: {}", written.gloss, written.hamnosys))?;
-        output.line(written.symbols.join(" "))?;
+        output.line_as_is(&format!("{}: {}", written.gloss, written.hamnosys))?;
+        output.line_as_is(&written.symbols.join(" "))?;
         let rows: Vec<Vec<String>> = written.features.iter().map(row).collect();
         output.table(
             &[
@@ -80,10 +80,10 @@ pub(super) fn run(cli: &Cli, args: &Args, output: &mut Output) -> Result<()> {
         let acts = written.nonmanual.acts().map(|(_, act)| act.name());
         let acts: Vec<String> = acts.collect();
         if !acts.is_empty() {
-            output.line(acts.join(" "))?;
+            output.line_as_is(&acts.join(" "))?;
         }
         for finding in &written.findings {
-            output.line(output.spoken(finding))?;
+            output.line_as_is(&output.spoken(finding))?;
         }
     }
     output.document(written)

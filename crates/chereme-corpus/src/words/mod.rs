@@ -71,7 +71,9 @@ pub fn has_message(form: &str, language: Language) -> bool {
 }
 
 fn message_form(form: &str, language: Language) -> Option<&'static str> {
-    phrases::phrase_book(language)?.fixed_text("message", form.trim_start())
+    let book = phrases::phrase_book(language)?;
+    let line = book.fixed_text("line", form.trim_start());
+    line.or_else(|| book.fixed_text("message", form.trim_start()))
 }
 
 /// Returns the message with this English form in `language`, its blanks filled by `values` in the order of the English

@@ -1,7 +1,9 @@
 //! Phrases in English and in another language, from the files of words in `schema/words`.
 //!
 //! `schema/words/LANGUAGE/ROOM.ftl` holds the phrases of a room in Fluent's syntax. A phrase has the same id in all languages;
-//! the id begins with its kind: `message`, `help`, `title`, `guide`, `history` or `noun`. Comments in the files are for translators.
+//! the id begins with its kind: `message`, `help`, `title`, `guide`, `line`, `history` or `noun`.
+//! A `message` is recognised in a finished text; a `line` is looked up by its English form and filled, so that no name is part of
+//! what is looked at. Comments in the files are for translators.
 
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
@@ -159,7 +161,7 @@ impl PhrasePair {
 pub(super) struct PhraseBook {
     /// Messages, those with most words of their own first: a text that two of them fit is the one that says more of it.
     pub(super) messages: Vec<PhrasePair>,
-    /// The forms of texts by kind (`help`, `title`, `guide` or `message`) and English form.
+    /// The forms of texts by kind (`help`, `title`, `guide`, `line` or `message`) and English form.
     fixed_texts: BTreeMap<(String, String), String>,
 }
 
@@ -260,7 +262,9 @@ mod tests {
                     let before = ids.insert(message.id.name.to_owned(), path.clone());
                     assert!(before.is_none(), "{path}, {before:?}: {}", message.id.name);
                     let kind = message.id.name.split('-').next();
-                    let kinds = ["message", "help", "title", "guide", "history", "noun"];
+                    let kinds = [
+                        "message", "help", "title", "guide", "line", "history", "noun",
+                    ];
                     assert!(kind.is_some_and(|kind| kinds.contains(&kind)), "{path}");
                 }
             }
@@ -298,9 +302,16 @@ mod tests {
             names.sort();
             names
         };
-        for pair in &phrase_book(Language::French).expect("French").messages {
+        let book = phrase_book(Language::French).expect("French");
+        for pair in &book.messages {
             assert_eq!(blanks(&pair.english), blanks(&pair.other), "{pair:?}");
         }
+        let mut lines = book
+            .fixed_texts
+            .iter()
+            .filter(|((kind, _), _)| kind == "line");
+        let of = |form: &str| blanks(&Phrase::from_form(form));
+        assert!(lines.all(|((_, english), other)| of(english) == of(other)));
     }
 
     #[test]

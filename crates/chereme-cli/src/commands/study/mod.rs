@@ -403,7 +403,7 @@ fn plan(cli: &Cli, args: &NewArgs, progress: &mut Progress<'_>, output: &mut Out
 fn show(plan: &Plan, output: &mut Output) -> Result<()> {
     let language = output.language().code();
     let said = |texts: &Texts| text_in(texts, language).unwrap_or_default().to_owned();
-    output.line(format!("{}: {}", plan.name, said(&plan.title)))?;
+    output.line_as_is(&format!("{}: {}", plan.name, said(&plan.title)))?;
     let rows: Vec<Vec<String>> = plan
         .trials
         .iter()

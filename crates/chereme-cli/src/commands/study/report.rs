@@ -176,11 +176,11 @@ fn conclusions(report: &Report, output: &mut Output) -> Result<()> {
                     ("because", &because),
                 ],
             );
-            output.line(words)?;
+            output.line_as_is(&words)?;
         }
     }
     if report.comparisons.iter().all(|it| it.hypothesis.is_none()) {
-        output.line(w::NO_HYPOTHESIS.of(language))?;
+        output.line_as_is(w::NO_HYPOTHESIS.of(language))?;
     }
     Ok(())
 }
