@@ -3,19 +3,15 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use include_dir::{Dir, include_dir};
-
 use chereme_figure::signed;
 use chereme_motion::{Anatomy, Clip};
 
 use crate::error::{Error, Result};
 use crate::sources::notation::own_movement;
 
-static FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../corpus");
-
 /// Returns the names and bytes of the starter corpus's files.
 pub fn starter_files() -> impl Iterator<Item = (&'static Path, &'static [u8])> {
-    FILES.files().map(|file| (file.path(), file.contents()))
+    chereme_data::files_below("corpus").map(|(name, text)| (Path::new(name), text.as_bytes()))
 }
 
 /// A sign of the starter corpus, for display before any corpus is open.

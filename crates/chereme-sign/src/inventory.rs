@@ -295,27 +295,27 @@ fn key(text: &str) -> String {
 pub const BUILTIN_FILES: [(&str, &str); 6] = [
     (
         "configurations.json",
-        include_str!("../../../schema/inventories/configurations.json"),
+        chereme_data::schema_text("inventories/configurations.json"),
     ),
     (
         "lsf-alphabet.json",
-        include_str!("../../../schema/inventories/lsf-alphabet.json"),
+        chereme_data::schema_text("inventories/lsf-alphabet.json"),
     ),
     (
         "placements.json",
-        include_str!("../../../schema/inventories/placements.json"),
+        chereme_data::schema_text("inventories/placements.json"),
     ),
     (
         "movements.json",
-        include_str!("../../../schema/inventories/movements.json"),
+        chereme_data::schema_text("inventories/movements.json"),
     ),
     (
         "orientations.json",
-        include_str!("../../../schema/inventories/orientations.json"),
+        chereme_data::schema_text("inventories/orientations.json"),
     ),
     (
         "nonmanuals.json",
-        include_str!("../../../schema/inventories/nonmanuals.json"),
+        chereme_data::schema_text("inventories/nonmanuals.json"),
     ),
 ];
 

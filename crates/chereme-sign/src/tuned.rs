@@ -19,6 +19,9 @@ use std::collections::BTreeMap;
 use serde::de::{Deserialize, DeserializeOwned, Deserializer};
 use serde_json::Value;
 
+#[doc(hidden)]
+pub use chereme_data::schema_text;
+
 /// Reads a document of tuned numbers.
 ///
 /// # Errors
@@ -37,7 +40,7 @@ pub fn number<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result
 }
 
 /// Declares structs for groups of tuned numbers, `Tuned`, which holds every group, and `tuned()`, which returns the numbers
-/// of the crate's own data file at `$path`, relative to the source file. The data file documents each number.
+/// of the data file at `$path` in the folder `schema`. The data file documents each number.
 #[macro_export]
 macro_rules! tuned_numbers {
     ($path:literal; $($(#[$doc:meta])* $group:ident: $numbers:ident { $($name:ident: $kind:ty,)* })*) => {
@@ -55,7 +58,7 @@ macro_rules! tuned_numbers {
             $($(#[$doc])* pub(crate) $group: $numbers,)*
         }
 
-        const DOCUMENT: &str = include_str!($path);
+        const DOCUMENT: &str = $crate::tuned::schema_text($path);
 
         /// Returns the tuned numbers.
         #[inline]

@@ -6,7 +6,7 @@
 use chereme_sign::tuned::tuned_numbers;
 
 tuned_numbers! {
-    "../../../../schema/notation/reading.json";
+    "notation/reading.json";
     /// Numbers for transcription as a whole.
     reading: ReadingNumbers {
         made: f64,

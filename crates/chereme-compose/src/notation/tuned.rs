@@ -6,7 +6,7 @@
 use chereme_sign::tuned::tuned_numbers;
 
 tuned_numbers! {
-    "../../../../schema/notation/animating.json";
+    "notation/animating.json";
     /// Numbers for approaches.
     approach: ApproachNumbers {
         lever: f64,

@@ -20,19 +20,19 @@ const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");
 
 /// The steps of the schema; a file's `user_version` is the number of steps that it has taken.
 const STEPS: [&str; 13] = [
-    include_str!("../../../../schema/sql/0001_corpus.sql"),
-    include_str!("../../../../schema/sql/0002_notation.sql"),
-    include_str!("../../../../schema/sql/0003_kept_search.sql"),
-    include_str!("../../../../schema/sql/0004_curves.sql"),
-    include_str!("../../../../schema/sql/0005_files.sql"),
-    include_str!("../../../../schema/sql/0006_attributes.sql"),
-    include_str!("../../../../schema/sql/0007_tracks.sql"),
-    include_str!("../../../../schema/sql/0008_clock.sql"),
-    include_str!("../../../../schema/sql/0009_tier_roles.sql"),
-    include_str!("../../../../schema/sql/0010_studies.sql"),
-    include_str!("../../../../schema/sql/0011_consent.sql"),
-    include_str!("../../../../schema/sql/0012_checksums.sql"),
-    include_str!("../../../../schema/sql/0013_effect.sql"),
+    chereme_data::schema_text("sql/0001_corpus.sql"),
+    chereme_data::schema_text("sql/0002_notation.sql"),
+    chereme_data::schema_text("sql/0003_kept_search.sql"),
+    chereme_data::schema_text("sql/0004_curves.sql"),
+    chereme_data::schema_text("sql/0005_files.sql"),
+    chereme_data::schema_text("sql/0006_attributes.sql"),
+    chereme_data::schema_text("sql/0007_tracks.sql"),
+    chereme_data::schema_text("sql/0008_clock.sql"),
+    chereme_data::schema_text("sql/0009_tier_roles.sql"),
+    chereme_data::schema_text("sql/0010_studies.sql"),
+    chereme_data::schema_text("sql/0011_consent.sql"),
+    chereme_data::schema_text("sql/0012_checksums.sql"),
+    chereme_data::schema_text("sql/0013_effect.sql"),
 ];
 
 /// The first version whose operations hold their effects, and not only a summary.

@@ -474,7 +474,7 @@ mod tests {
     fn tier_of(spans: &[(i64, i64)]) -> Connection {
         let connection = Connection::open_in_memory().expect("opened");
         connection
-            .execute_batch(include_str!("../../../../schema/sql/0001_corpus.sql"))
+            .execute_batch(chereme_data::schema_text("sql/0001_corpus.sql"))
             .and_then(|()| {
                 connection.execute_batch(
                     "INSERT INTO recording (id, name, origin) VALUES (1, 'R', 'captured');

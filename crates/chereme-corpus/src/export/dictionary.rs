@@ -1,7 +1,7 @@
 //! The description of the database in an exported folder, generated from `schema/README.md`.
 
 /// The description of every table and column, with example queries.
-const SCHEMA: &str = include_str!("../../../../schema/README.md");
+const SCHEMA: &str = chereme_data::schema_text("README.md");
 
 /// The first section for readers of the database; the sections before it describe the source tree.
 const LEFT_OUT_TO: &str = "## At a glance";

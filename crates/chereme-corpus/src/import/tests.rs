@@ -411,7 +411,7 @@ fn signs_in_json_are_a_lexicon() {
 fn a_body_that_faces_away_from_its_toes_is_reported() {
     let desk = Desk::new();
     let mut corpus = desk.corpus("c.chereme");
-    let whole = include_str!("../../../../corpus/bol.bvh");
+    let whole = chereme_data::starter_text("bol.bvh");
     let (left, right) = ("Left", "Right");
     let exchanged = whole
         .replace(left, "Other")

@@ -82,7 +82,7 @@ pub(super) enum SignType {
 
 /// Words for types, letters and digits alone, with the type.
 static TYPES: LazyLock<BTreeMap<String, SignType>> = LazyLock::new(|| {
-    let file = include_str!("../../../../schema/sign_types.json");
+    let file = chereme_data::schema_text("sign_types.json");
     let file: BTreeMap<SignType, Vec<String>> =
         serde_json::from_str(file).expect("the shipped table of types is whole; a test reads it");
     let words = |(of, words): (SignType, Vec<String>)| -> Vec<(String, SignType)> {

@@ -42,13 +42,13 @@ pub use mesh::{FaceMesh, MEASURES, Measures};
 
 /// The files of systems, in the order in which a capture is compared with them.
 const FILES: [&str; 7] = [
-    include_str!("../../../../schema/faces/house.json"),
-    include_str!("../../../../schema/faces/mediapipe.json"),
-    include_str!("../../../../schema/faces/arkit.json"),
-    include_str!("../../../../schema/faces/openface.json"),
-    include_str!("../../../../schema/faces/fap.json"),
-    include_str!("../../../../schema/faces/sigml.json"),
-    include_str!("../../../../schema/faces/mesh.json"),
+    chereme_data::schema_text("faces/house.json"),
+    chereme_data::schema_text("faces/mediapipe.json"),
+    chereme_data::schema_text("faces/arkit.json"),
+    chereme_data::schema_text("faces/openface.json"),
+    chereme_data::schema_text("faces/fap.json"),
+    chereme_data::schema_text("faces/sigml.json"),
+    chereme_data::schema_text("faces/mesh.json"),
 ];
 
 /// A system of face parameters.

@@ -94,7 +94,7 @@ pub enum Meaning {
 
 /// Titles as folded words, with their meanings.
 static TABLE: LazyLock<BTreeMap<String, Target>> = LazyLock::new(|| {
-    parse(include_str!("../../../../schema/column_words.json"))
+    parse(chereme_data::schema_text("column_words.json"))
         .expect("the shipped table of titles is whole; a test reads it")
 });
 

@@ -8,7 +8,7 @@ use std::sync::LazyLock;
 
 /// The shipped table.
 pub(super) static TABLE: LazyLock<Words> = LazyLock::new(|| {
-    Words::parse(include_str!("../../../../schema/tier_words.json"))
+    Words::parse(chereme_data::schema_text("tier_words.json"))
         .expect("the shipped table of words is whole; a test reads it")
 });
 
@@ -184,7 +184,7 @@ mod tests {
 
     #[test]
     fn the_built_in_table_is_complete_and_each_word_has_one_meaning() {
-        let text = include_str!("../../../../schema/tier_words.json");
+        let text = chereme_data::schema_text("tier_words.json");
         let file: File = serde_json::from_str(text).expect("a table");
         let words: Vec<&String> = file
             .hands

@@ -8,7 +8,7 @@ use crate::lexicon;
 use crate::roles::{Mapping, TierName, guess_roles};
 use crate::{hns, sigml, subtitles, timecode};
 
-const LEXICON: &str = include_str!("../../../../corpus/lexicon.csv");
+const LEXICON: &str = chereme_data::starter_text("lexicon.csv");
 
 const WIDE: &str = "Gloss;Handshape strong;Handshape weak;Location;Movement shape;Movement direction;Contact type;\
 Handshape change;Absolute Orientation: palm;Repeated Movement;right.placement;Frequency;English;Hamnosys;Notes\n\

@@ -146,9 +146,9 @@ pub struct UnknownVariant {
 
 static CODES: LazyLock<Vec<CueCode>> = LazyLock::new(|| {
     [
-        include_str!("../../../../schema/cues/french.json"),
-        include_str!("../../../../schema/cues/english-us.json"),
-        include_str!("../../../../schema/cues/english-gb.json"),
+        chereme_data::schema_text("cues/french.json"),
+        chereme_data::schema_text("cues/english-us.json"),
+        chereme_data::schema_text("cues/english-gb.json"),
     ]
     .into_iter()
     .filter_map(|text| serde_json::from_str(text).ok())

@@ -190,7 +190,7 @@ pub(super) struct Rules {
 }
 
 pub(super) static RULES: LazyLock<Rules> = LazyLock::new(|| {
-    let text = include_str!("../../../../schema/cues/french-spelling.json");
+    let text = chereme_data::schema_text("cues/french-spelling.json");
     serde_json::from_str(text).map_or_else(|_| Rules::empty(), Rules::of)
 });
 

@@ -94,7 +94,7 @@ impl Table {
     fn usual() -> &'static Self {
         static USUAL: OnceLock<Table> = OnceLock::new();
         USUAL.get_or_init(|| {
-            let text = include_str!("../../../../schema/notation/face.json");
+            let text = chereme_data::schema_text("notation/face.json");
             serde_json::from_str(text).expect("the program's own faces are whole")
         })
     }

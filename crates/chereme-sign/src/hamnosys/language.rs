@@ -291,7 +291,7 @@ impl BodyLanguage {
     pub fn usual() -> &'static Self {
         static USUAL: OnceLock<BodyLanguage> = OnceLock::new();
         USUAL.get_or_init(|| {
-            let text = include_str!("../../../../schema/notation/body_language.json");
+            let text = chereme_data::schema_text("notation/body_language.json");
             Self::parse(text).expect("the program's own body language is whole")
         })
     }
@@ -431,7 +431,7 @@ mod tests {
 
     #[test]
     fn the_built_in_file_names_exactly_the_known_values_with_their_units() {
-        let text = include_str!("../../../../schema/notation/body_language.json");
+        let text = chereme_data::schema_text("notation/body_language.json");
         let file = read(text).expect("the own file");
         assert_eq!(file.values.len(), BodyLanguage::NAMES.len());
         assert!(BodyLanguage::usual().move_small < BodyLanguage::usual().move_big);

@@ -518,8 +518,7 @@ fn hamnosys_symbols_are_known_ones() {
 #[test]
 fn the_json_schema_knows_the_fields_that_are_read() {
     let schema: serde_json::Value =
-        serde_json::from_str(include_str!("../../../../schema/inventory.schema.json"))
-            .expect("JSON");
+        serde_json::from_str(chereme_data::schema_text("inventory.schema.json")).expect("JSON");
     let fields = |path: &str| -> BTreeSet<String> {
         let object = schema.pointer(path).and_then(serde_json::Value::as_object);
         object.expect(path).keys().cloned().collect()

@@ -4,7 +4,7 @@ use super::*;
 use crate::db::recordings::{MotionTrackRow, RecordingRow, SignerRow};
 use chereme_formats::gltf;
 
-const WHOLE: &str = include_str!("../../../../../corpus/bol.bvh");
+const WHOLE: &str = chereme_data::starter_text("bol.bvh");
 
 /// Returns the movement with its root's positions in metres, and those of its bones in centimetres.
 fn root_in_metres() -> String {

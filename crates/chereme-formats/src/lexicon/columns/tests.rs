@@ -77,7 +77,7 @@ fn numbers_are_no_translations() {
 
 #[test]
 fn the_built_in_table_is_complete_and_each_title_has_one_meaning() {
-    let text = include_str!("../../../../../schema/column_words.json");
+    let text = chereme_data::schema_text("column_words.json");
     let file: BTreeMap<String, Vec<String>> = serde_json::from_str(text).expect("a table");
     let titles: Vec<&String> = file.values().flatten().collect();
     assert!(
