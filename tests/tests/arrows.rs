@@ -7,23 +7,26 @@ use chereme_tests::repository;
 use serde_json::Value;
 
 /// Every crate of the workspace, with the crates of the workspace that it may depend on.
-const ARROWS: [(&str, &[&str]); 10] = [
+const ARROWS: [(&str, &[&str]); 11] = [
+    ("chereme-data", &[]),
     ("chereme-motion", &[]),
-    ("chereme-sign", &["motion"]),
-    ("chereme-formats", &["motion", "sign"]),
+    ("chereme-sign", &["data", "motion"]),
+    ("chereme-formats", &["data", "motion", "sign"]),
     ("chereme-analysis", &["motion", "sign"]),
     ("chereme-compose", &["motion", "sign"]),
     ("chereme-figure", &["motion"]),
     (
         "chereme-corpus",
-        &["motion", "sign", "formats", "analysis", "compose", "figure"],
+        &[
+            "data", "motion", "sign", "formats", "analysis", "compose", "figure",
+        ],
     ),
     ("chereme-studio", &["motion", "sign", "figure", "corpus"]),
     ("chereme-cli", &["motion", "sign", "figure", "corpus"]),
     (
         "chereme-tests",
         &[
-            "motion", "sign", "formats", "analysis", "compose", "figure", "corpus",
+            "data", "motion", "sign", "formats", "analysis", "compose", "figure", "corpus",
         ],
     ),
 ];
@@ -155,6 +158,54 @@ fn crates_depend_only_on_those_that_the_design_allows() {
         }
     }
     assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn no_crate_embeds_a_file_outside_its_folder() {
+    let mut faults = Vec::new();
+    for file in repository::rust_files() {
+        // Tests are not packaged alone.
+        if file.is_test() || !file.path.starts_with("crates/") {
+            continue;
+        }
+        let depth = file.path.split('/').count() - 3;
+        for (line, text) in file.code() {
+            let includes = ["include_str!(\"", "include_bytes!(\"", "include!(\""];
+            let mut paths = includes.iter().flat_map(|name| text.split(name).skip(1));
+            if paths.any(|path| {
+                path.split('"')
+                    .next()
+                    .unwrap_or_default()
+                    .matches("../")
+                    .count()
+                    > depth
+            }) || text.contains("CARGO_MANIFEST_DIR")
+            {
+                faults.push(format!("{}, line {line}: {}", file.path, text.trim()));
+            }
+        }
+    }
+    assert!(faults.is_empty(), "take it from chereme-data: {faults:#?}");
+}
+
+#[test]
+fn every_crate_has_the_version_of_the_workspace() {
+    let workspace = metadata(&["--no-deps"]).expect("cargo metadata");
+    let packages = list(&workspace, "packages");
+    let version = text(&packages[0], "version");
+    for package in packages {
+        let name = text(package, "name");
+        assert_eq!(text(package, "version"), version, "{name}");
+        for dependency in list(package, "dependencies") {
+            let other = text(dependency, "name");
+            let wanted = text(dependency, "req");
+            let is_own = other.starts_with("chereme-");
+            assert!(
+                !is_own || wanted == format!("^{version}"),
+                "{name} wants {other} {wanted}"
+            );
+        }
+    }
 }
 
 #[test]

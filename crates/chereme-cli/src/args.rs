@@ -8,7 +8,8 @@ use anyhow::Result;
 use chereme_corpus::words::{Language, fill, trouble};
 use chereme_corpus::{Corpus, Error};
 use chereme_motion::Side;
-use clap::{Parser, ValueEnum};
+use clap::builder::PossibleValuesParser;
+use clap::{CommandFactory, Parser, ValueEnum};
 
 use crate::commands::Command;
 use crate::output::write_to_stderr;
@@ -36,9 +37,10 @@ pub(crate) struct Cli {
     /// if the output goes to a file or another program
     #[arg(long, global = true, value_name = "LETTERS")]
     pub(crate) width: Option<usize>,
-    /// The language of help, tables and messages: en or fr; without it the language of the system. JSON is always in
-    /// English
-    #[arg(long, value_name = "LANGUAGE", value_parser = ["en", "fr"])]
+    /// The language of help, tables and messages; without it English or French, as the system. Words that a language
+    /// lacks are English, as JSON always is. The environment variable CHEREME_WORDS names a folder with languages of
+    /// your own: `chereme words --help`
+    #[arg(long, value_name = "LANGUAGE", value_parser = PossibleValuesParser::new(language_codes()))]
     pub(crate) language: Option<String>,
     #[command(subcommand)]
     pub(crate) command: Command,
@@ -86,21 +88,33 @@ impl SideWord {
     }
 }
 
-/// Removes `--language en` or `fr` from any position in the words of the command line, and returns the code.
-/// Other values of an option of this name belong to the commands.
+/// Returns the codes of the languages that have a folder of words.
+pub(crate) fn language_codes() -> impl Iterator<Item = &'static str> {
+    let listed = Language::all_listed().into_iter();
+    listed.map(|(language, _)| language.code())
+}
+
+/// Removes `--language` with a language's code from any position in the words of the command line, and returns the code.
+/// After a command with an option of this name, the option belongs to it, as other values do.
 pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
-    let code = |word: &OsString| {
-        word.to_str()
-            .filter(|word| ["en", "fr"].contains(word))
-            .map(str::to_owned)
-    };
+    let code = |word: &OsString| Some(word.to_str().and_then(Language::from_code)?.code());
+    let whole = Cli::command();
+    let mut command = &whole;
     let mut asked = None;
     let mut at = 1;
     while at < words.len() {
+        let named = words[at].to_str();
+        command = named
+            .and_then(|word| command.find_subcommand(word))
+            .unwrap_or(command);
+        let mut options = command.get_arguments().map(clap::Arg::get_long);
+        let is_own =
+            command.get_name() != whole.get_name() && options.any(|long| long == Some("language"));
         let joined = words[at]
             .to_str()
             .and_then(|word| word.strip_prefix("--language="));
         let taken = match (joined, words[at] == "--language") {
+            _ if is_own => None,
             (Some(value), _) => code(&value.into()).map(|code| (code, 1)),
             (None, true) => words.get(at + 1).and_then(code).map(|code| (code, 2)),
             _ => None,
@@ -113,16 +127,17 @@ pub(crate) fn take_language(words: &mut Vec<OsString>) -> Option<String> {
             None => at += 1,
         }
     }
-    asked
+    asked.map(str::to_owned)
 }
 
 /// Returns the language of a code; without one the language of the locale.
 pub(crate) fn language(asked: Option<&str>) -> Language {
-    asked.map_or_else(|| Language::of_environment(variable), Language::of_locale)
+    let known = asked.and_then(Language::from_code);
+    known.unwrap_or_else(|| Language::of_environment(variable))
 }
 
 /// Returns a variable of the environment.
-fn variable(name: &str) -> Option<String> {
+pub(crate) fn variable(name: &str) -> Option<String> {
     std::env::var(name).ok()
 }
 

@@ -15,6 +15,7 @@ mod words;
 use std::ffi::OsString;
 use std::process::ExitCode;
 
+use chereme_corpus::words::coverage::use_word_folder;
 use clap::{CommandFactory, FromArgMatches};
 
 use args::Cli;
@@ -36,6 +37,11 @@ fn actions(words: &[OsString]) -> Vec<String> {
 fn main() -> ExitCode {
     let mut words: Vec<_> = std::env::args_os().collect();
     let json = words.iter().any(|word| word == "--json");
+    if let Some(folder) = std::env::var_os("CHEREME_WORDS").filter(|folder| !folder.is_empty())
+        && let Err(error) = use_word_folder(folder.as_ref())
+    {
+        return Output::new(json, None, args::language(None)).fail(&error.into());
+    }
     let asked = args::take_language(&mut words);
     let language = args::language(asked.as_deref());
     let parsed = words::spoken(Cli::command(), language)

@@ -14,11 +14,6 @@ use clap::{Arg, ArgAction, Command};
 
 pub(crate) use chereme_corpus::words::{column_title as title, message};
 
-/// Returns a text of the help in French; nothing if the files of words lack it.
-fn help(english: &str) -> Option<&'static str> {
-    help_text(english, Language::French)
-}
-
 /// The phrases of clap, as English and French.
 const FRAME: [(&str, &str); 20] = [
     ("error: ", "erreur : "),
@@ -82,16 +77,37 @@ pub(crate) fn roles(language: Language) -> String {
 pub(crate) fn spoken(command: Command, language: Language) -> Command {
     match language {
         Language::English => command,
-        Language::French => french(command),
+        Language::French => french(translated_command(command, language)),
+        Language::Other(_) => translated_command(command, language),
     }
 }
 
+/// Returns the command with the texts of its help in `language`.
+fn translated_command(command: Command, language: Language) -> Command {
+    let spoken = |text: &StyledStr| translated(text, language);
+    let argument = |argument: Arg| {
+        let short = argument.get_help().map(spoken);
+        let long = argument.get_long_help().map(spoken);
+        let argument = short.into_iter().fold(argument, Arg::help);
+        long.into_iter().fold(argument, Arg::long_help)
+    };
+    let about = command.get_about().map(spoken);
+    let long = command.get_long_about().map(spoken);
+    let after = command.get_after_help().map(spoken);
+    let after_long = command.get_after_long_help().map(spoken);
+    let command = about.into_iter().fold(command, Command::about);
+    let command = long.into_iter().fold(command, Command::long_about);
+    let command = after.into_iter().fold(command, Command::after_help);
+    let command = after_long
+        .into_iter()
+        .fold(command, Command::after_long_help);
+    let subcommand = |command: Command| translated_command(command, language);
+    command.mut_args(argument).mut_subcommands(subcommand)
+}
+
+/// Returns a command, whose texts are French, with the frame that clap gives them in French.
 fn french(command: Command) -> Command {
-    let about = command.get_about().map(translated);
-    let long = command.get_long_about().map(translated);
-    let after = command.get_after_help().map(translated);
-    let after_long = command.get_after_long_help().map(translated);
-    let mut command = command
+    command
         .help_template(TEMPLATE)
         .subcommand_help_heading("Commandes ")
         .subcommand_value_name("COMMANDE")
@@ -111,20 +127,7 @@ fn french(command: Command) -> Command {
             'V',
             "Afficher la version",
             ArgAction::Version,
-        ));
-    if let Some(about) = about {
-        command = command.about(about);
-    }
-    if let Some(long) = long {
-        command = command.long_about(long);
-    }
-    if let Some(after) = after {
-        command = command.after_help(after);
-    }
-    if let Some(after) = after_long {
-        command = command.after_long_help(after);
-    }
-    command
+        ))
 }
 
 fn flag(name: &'static str, short: char, help: &'static str, action: ArgAction) -> Arg {
@@ -136,7 +139,7 @@ fn flag(name: &'static str, short: char, help: &'static str, action: ArgAction) 
         .help_heading("Options ")
 }
 
-/// Returns an argument with its help in French, with its possible values and its default, which clap would introduce in
+/// Returns an argument, whose help is French, with its possible values and its default, which clap would introduce in
 /// English.
 fn argument(argument: Arg) -> Arg {
     let heading = match argument.is_positional() {
@@ -146,8 +149,8 @@ fn argument(argument: Arg) -> Arg {
     let values = values(&argument);
     let explained = values.iter().any(|(_, help)| help.is_some());
     let names: Vec<&str> = values.iter().map(|(name, _)| name.as_str()).collect();
-    let mut short = argument.get_help().map(translated);
-    let mut long = argument.get_long_help().map(translated);
+    let mut short = argument.get_help().map(ToString::to_string);
+    let mut long = argument.get_long_help().map(ToString::to_string);
     if explained {
         let text = long.take().or_else(|| short.clone()).unwrap_or_default();
         long = Some(format!(
@@ -204,10 +207,9 @@ fn values(argument: &Arg) -> Vec<(String, Option<String>)> {
     let shown = all.filter(|value| !value.is_hide_set());
     shown
         .map(|value| {
-            (
-                value.get_name().to_owned(),
-                value.get_help().map(translated),
-            )
+            let help = value.get_help();
+            let help = help.map(|text| translated(text, Language::French));
+            (value.get_name().to_owned(), help)
         })
         .collect()
 }
@@ -221,20 +223,21 @@ fn listed(values: &[(String, Option<String>)]) -> String {
     values.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Returns a text of the help in French, paragraph by paragraph, and guides line by line; one without French words stays
-/// English.
-fn translated(text: &StyledStr) -> String {
+/// Returns a text of the help in `language`, paragraph by paragraph, and guides line by line; one that the language lacks
+/// stays English.
+fn translated(text: &StyledStr, language: Language) -> String {
     let text = text.to_string();
-    if let Some(french) = help(&text) {
-        return french.to_owned();
+    let help = |english: &str| help_text(english, language);
+    if let Some(known) = help(&text) {
+        return known.to_owned();
     }
     let paragraph = |text: &str| {
         let lists = [readable_files, roles];
         if let Some(list) = lists.iter().find(|list| list(Language::English) == text) {
-            return list(Language::French);
+            return list(language);
         }
         let known = help(text).or_else(|| help(text.trim_end_matches('.')));
-        known.map_or_else(|| guide(text, Language::French), str::to_owned)
+        known.map_or_else(|| guide(text, language), str::to_owned)
     };
     let all: Vec<String> = text.split("\n\n").map(paragraph).collect();
     all.join("\n\n")

@@ -639,3 +639,66 @@ fn a_closed_output_pipe_is_no_error() {
     assert_eq!(text(&done.stderr), "");
     assert_eq!(done.status.code(), Some(0));
 }
+
+#[test]
+fn a_language_is_a_folder_and_may_be_the_users_own() {
+    let desk = Desk::new();
+    let words = desk.folder.path().join("words");
+    fs::create_dir_all(words.join("tlh")).expect("made");
+    let file = words.join("tlh/own.ftl");
+    let write = |text: &str| fs::write(&file, text).expect("written");
+    let run = |line: &str| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_chereme"));
+        command
+            .args(line.split(' '))
+            .env("LC_ALL", "C")
+            .env("CHEREME_WORDS", &words);
+        command.output().expect("the program runs")
+    };
+    write(
+        "language-name = tlhIngan Hol\nhelp-commands-corpus = De’wI’\nmenu-edit-undo = Undo { $n }\n",
+    );
+    let listed = text(&run("words").stdout);
+    assert!(
+        listed.contains("tlhIngan Hol") && listed.contains("Deutsch"),
+        "{listed}"
+    );
+    // The phrase with another variable part cannot be used, and what is missing is English.
+    let missing = text(&run("words --missing tlh").stdout);
+    assert!(
+        missing.contains("tlh/own.ftl:3: the variable parts of menu-edit-undo"),
+        "{missing}"
+    );
+    assert!(missing.contains("menu-edit-undo  Undo"), "{missing}");
+    let help = text(&run("--language tlh undo --help").stdout);
+    assert!(
+        help.contains("De’wI’") && help.contains("Usage: "),
+        "{help}"
+    );
+    let unknown = run("--language xx words");
+    let refused = text(&unknown.stderr);
+    assert_eq!(unknown.status.code(), Some(2));
+    assert!(refused.contains("en, fr, de, tlh"), "{refused}");
+    write("language-name = tlhIngan Hol\nmenu-edit-undo\n");
+    let damaged = run("words");
+    let refused = text(&damaged.stderr);
+    assert_eq!(damaged.status.code(), Some(1));
+    assert!(refused.contains("tlh/own.ftl:2"), "{refused}");
+}
+
+#[test]
+fn the_language_of_a_tier_is_not_that_of_the_program() {
+    let desk = Desk::new();
+    let path = desk.corpus();
+    let path = path.display();
+    for code in ["de", "fr"] {
+        let line = format!("annotate {path} --in bowl add-tier T-{code} --language {code}");
+        let done = desk.run(&line);
+        assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
+        let tiers = text(&desk.run(&format!("list {path} tiers --json")).stdout);
+        assert!(
+            tiers.contains(&format!("\"language\":\"{code}\"")),
+            "{tiers}"
+        );
+    }
+}

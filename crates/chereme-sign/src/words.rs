@@ -1,22 +1,53 @@
-//! Words that people read, in English and French: the words of operators and detectors stand beside their code.
+//! Words that people read: the languages of the interfaces, and texts in them.
+//!
+//! Words lie in folders, one for each language: see [`folders`]. A [`Text`] names its words there by an id, or holds them in
+//! English and French, as those of operators and detectors do, beside their code.
 
-use serde::{Deserialize, Serialize};
+use serde::de::{Deserialize, Deserializer, Error as _};
+use serde::{Serialize, Serializer};
+
+pub mod folders;
+
+use folders::{language_files, phrase_text};
 
 /// A language of the user interfaces.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Language {
-    /// English.
+    /// English, in which every text is written.
     #[default]
     English,
-    /// French.
+    /// French, in which every text is written, too.
     French,
+    /// A language that is a folder of words, by its code; what the folder lacks is English.
+    Other(&'static str),
 }
 
 impl Language {
-    /// Every language with its own name for itself.
+    /// The languages in which every text is written, with their own names for themselves.
     pub const ALL: [(Self, &'static str); 2] =
         [(Self::English, "English"), (Self::French, "Français")];
+
+    /// Returns every language that has a folder of words, with its own name for itself.
+    #[must_use]
+    pub fn all_listed() -> Vec<(Self, &'static str)> {
+        let named = |(code, files): (&'static String, &'static folders::LanguageFiles)| {
+            Some((Self::from_code(code)?, files.language_name(code)))
+        };
+        let mut listed: Vec<_> = language_files().iter().filter_map(named).collect();
+        listed.sort_by_key(|(language, _)| (matches!(language, Self::Other(_)), language.code()));
+        listed
+    }
+
+    /// Returns the language of a code such as `fr`; nothing if there is no folder of words for it.
+    #[must_use]
+    pub fn from_code(code: &str) -> Option<Self> {
+        let (code, _) = language_files().get_key_value(code)?;
+        Some(match code.as_str() {
+            "en" => Self::English,
+            "fr" => Self::French,
+            other => Self::Other(other),
+        })
+    }
 
     /// Returns its language code, which inventories use for their names.
     #[must_use]
@@ -24,10 +55,11 @@ impl Language {
         match self {
             Self::English => "en",
             Self::French => "fr",
+            Self::Other(code) => code,
         }
     }
 
-    /// Returns the language for a locale such as `fr_FR.UTF-8`.
+    /// Returns the language for a locale such as `fr_FR.UTF-8`, among those in which every text is written.
     #[must_use]
     pub fn of_locale(locale: &str) -> Self {
         if locale.to_lowercase().starts_with("fr") {
@@ -46,30 +78,74 @@ impl Language {
         let locale = locales.find(|locale| !locale.is_empty());
         Self::of_locale(&locale.unwrap_or_default())
     }
+
+    /// Returns the name in documents, such as the settings of the window.
+    fn stored_name(self) -> &'static str {
+        match self {
+            Self::English => "english",
+            Self::French => "french",
+            Self::Other(code) => code,
+        }
+    }
 }
 
-/// Words in every language.
+impl Serialize for Language {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        to.serialize_str(self.stored_name())
+    }
+}
+
+impl<'de> Deserialize<'de> for Language {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(from)?;
+        let mut complete = Self::ALL.into_iter().map(|(language, _)| language);
+        let stored = complete.find(|language| language.stored_name() == name);
+        let known = stored.or_else(|| Self::from_code(&name));
+        known.ok_or_else(|| D::Error::custom(format!("there are no words for the language {name}")))
+    }
+}
+
+/// A text for people: its words in English and French, or its id in the folders of words.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Text {
-    /// In English.
+    /// In English; the id, if the words lie in folders.
     pub en: &'static str,
-    /// In French.
+    /// In French; the id, if the words lie in folders.
     pub fr: &'static str,
+    lies_in_folders: bool,
 }
 
 impl Text {
     /// Creates a text from its English and its French words.
     #[must_use]
     pub const fn new(en: &'static str, fr: &'static str) -> Self {
-        Self { en, fr }
+        Self {
+            en,
+            fr,
+            lies_in_folders: false,
+        }
     }
 
-    /// Returns the words in `language`.
+    /// Creates a text from its id in the folders of words. Letters of the id are lowered, and dots and underscores are hyphens.
     #[must_use]
-    pub const fn of(self, language: Language) -> &'static str {
+    pub const fn from_id(id: &'static str) -> Self {
+        Self {
+            en: id,
+            fr: id,
+            lies_in_folders: true,
+        }
+    }
+
+    /// Returns the words in `language`; words that it lacks are English, and an id without words stays.
+    #[must_use]
+    pub fn of(self, language: Language) -> &'static str {
         match language {
-            Language::English => self.en,
+            _ if self.lies_in_folders => {
+                let id = self.en.to_lowercase().replace(['.', '_'], "-");
+                phrase_text(&id, language).unwrap_or(self.en)
+            }
             Language::French => self.fr,
+            Language::English | Language::Other(_) => self.en,
         }
     }
 }
@@ -77,6 +153,31 @@ impl Text {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_language_is_a_folder_and_falls_back_to_english() {
+        let codes: Vec<&str> = Language::all_listed()
+            .iter()
+            .map(|(language, _)| language.code())
+            .collect();
+        assert_eq!(codes[..2], ["en", "fr"]);
+        assert_eq!(Language::from_code("fr"), Some(Language::French));
+        assert_eq!(Language::from_code("tlh"), None);
+        for (language, name) in Language::all_listed() {
+            assert_eq!(Language::from_code(language.code()), Some(language));
+            assert_ne!(name, language.code(), "language-name");
+            let stored = serde_json::to_string(&language).expect("stored");
+            let read: Language = serde_json::from_str(&stored).expect("read");
+            assert_eq!(read, language);
+        }
+        assert!(serde_json::from_str::<Language>("\"tlh\"").is_err());
+        let undo = Text::from_id("menu-edit.undo");
+        let others = ["Undo", "Annuler", "Undo"];
+        let languages = [Language::English, Language::French, Language::Other("tlh")];
+        assert_eq!(languages.map(|language| undo.of(language)), others);
+        assert_eq!(Text::new("a", "b").of(Language::Other("tlh")), "a");
+        assert_eq!(Text::from_id("menu-none").of(Language::French), "menu-none");
+    }
 
     #[test]
     fn the_language_is_that_of_the_locale() {

@@ -6,8 +6,7 @@
 /// Declares the actions.
 macro_rules! actions {
     ($(
-        $action:ident $id:literal $en:literal | $fr:literal
-        $menu:ident, $context:expr, $owner:expr, $($flag:ident)* $(,)? $elan:literal $praat:literal $editor:literal;
+        $action:ident $id:literal $menu:ident, $context:expr, $owner:expr, $($flag:ident)* $(,)? $elan:literal $praat:literal $editor:literal;
     )*) => {
         /// A request that needs no further input.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -22,7 +21,7 @@ macro_rules! actions {
             [$(ActionRow {
                 action: Action::$action,
                 id: $id,
-                name: Text { en: $en, fr: $fr },
+                name: Text::from_id(concat!("menu-", $id)),
                 menu: Menu::$menu,
                 context: $context,
                 owner: $owner,
@@ -47,7 +46,7 @@ use crate::context::PaneInput;
 use crate::keys::Keymap;
 use crate::keys::chord::Chord;
 use crate::panes::PaneKind;
-use crate::words::{Text, shell};
+use crate::words::Text;
 use crate::work::Job;
 
 pub(crate) use table::{ACTIONS, Action};
@@ -70,17 +69,17 @@ pub(crate) enum Menu {
 
 impl Menu {
     pub(crate) const ALL: [(Self, Text); 11] = [
-        (Self::File, shell::MENU_FILE),
-        (Self::Edit, shell::MENU_EDIT),
-        (Self::Annotation, shell::MENU_ANNOTATION),
-        (Self::Value, shell::MENU_VALUE),
-        (Self::Timing, shell::MENU_TIMING),
-        (Self::Tier, shell::MENU_TIER),
-        (Self::Play, shell::MENU_PLAY),
-        (Self::Stage, shell::MENU_STAGE),
-        (Self::View, shell::MENU_VIEW),
-        (Self::Panes, shell::MENU_PANES),
-        (Self::Help, shell::MENU_HELP),
+        (Self::File, Text::from_id("menu-bar-file")),
+        (Self::Edit, Text::from_id("menu-bar-edit")),
+        (Self::Annotation, Text::from_id("menu-bar-annotation")),
+        (Self::Value, Text::from_id("menu-bar-value")),
+        (Self::Timing, Text::from_id("menu-bar-timing")),
+        (Self::Tier, Text::from_id("menu-bar-tier")),
+        (Self::Play, Text::from_id("menu-bar-play")),
+        (Self::Stage, Text::from_id("menu-bar-stage")),
+        (Self::View, Text::from_id("menu-bar-view")),
+        (Self::Panes, Text::from_id("menu-bar-panes")),
+        (Self::Help, Text::from_id("menu-bar-help")),
     ];
 }
 
@@ -166,6 +165,7 @@ mod tests {
     use std::collections::BTreeSet;
 
     use super::*;
+    use crate::words::Language;
 
     #[test]
     fn actions_are_found_by_name_and_ids_are_unique() {
@@ -179,11 +179,9 @@ mod tests {
     #[test]
     fn every_action_has_words_in_both_languages_and_valid_keys() {
         for row in ACTIONS {
-            assert!(
-                !row.name.en.is_empty() && !row.name.fr.is_empty(),
-                "{}",
-                row.id
-            );
+            for (language, _) in Language::ALL {
+                assert_ne!(row.name.of(language), row.name.en, "{}", row.id);
+            }
             for text in row.keys.iter().flat_map(|keys| keys.split_whitespace()) {
                 let known = text == "=" || text == "none" || text.parse::<Chord>().is_ok();
                 assert!(known, "{}: {text}", row.id);

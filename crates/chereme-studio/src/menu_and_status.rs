@@ -10,7 +10,7 @@ use crate::command::Command;
 use crate::layout::Busy;
 use crate::panes::history::data as history;
 use crate::panes::timeline::bar;
-use crate::words::{fill, shell as words};
+use crate::words::{Text, fill, shell as words};
 use crate::work::Lane;
 use crate::work::begin::Begin;
 
@@ -138,16 +138,21 @@ impl Studio {
     /// Shows the layouts to choose from, from right to left.
     fn layouts(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        for (action, text, busy) in [
+        for (action, id, busy) in [
             (
                 Action::LayoutRecombine,
-                words::RECOMBINING,
+                "menu-bar-recombining",
                 Busy::Recombining,
             ),
-            (Action::LayoutSearch, words::SEARCHING, Busy::Searching),
-            (Action::LayoutAnnotate, words::ANNOTATING, Busy::Annotating),
+            (Action::LayoutSearch, "menu-bar-searching", Busy::Searching),
+            (
+                Action::LayoutAnnotate,
+                "menu-bar-annotating",
+                Busy::Annotating,
+            ),
         ] {
-            let button = Button::selectable(self.settings.busy == busy, text.of(language));
+            let text = Text::from_id(id).of(language);
+            let button = Button::selectable(self.settings.busy == busy, text);
             let button = ui.add(button).on_hover_ui(|ui| {
                 ui.label(action.row().name.of(language));
                 ui.weak(self.keys.text(action));
@@ -204,13 +209,16 @@ impl Studio {
         if self.settings.recent.is_empty() {
             return;
         }
-        ui.menu_button(words::RECENT.of(self.settings.language), |ui| {
-            for path in &self.settings.recent {
-                if ui.button(path.display().to_string()).clicked() {
-                    self.out.send(Command::Begin(Begin::Open(path.clone())));
+        ui.menu_button(
+            Text::from_id("menu-bar-recent").of(self.settings.language),
+            |ui| {
+                for path in &self.settings.recent {
+                    if ui.button(path.display().to_string()).clicked() {
+                        self.out.send(Command::Begin(Begin::Open(path.clone())));
+                    }
                 }
-            }
-        });
+            },
+        );
     }
 
     /// Returns the title of the window: the program, the corpus, and whether the corpus is read-only.

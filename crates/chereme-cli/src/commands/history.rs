@@ -106,7 +106,7 @@ fn walk(output: &mut Output, times: usize, back: bool, corpus: &mut Corpus) -> R
 fn what(row: &OperationRow, language: Language) -> String {
     match language {
         Language::English => format!("{}: {}", row.name, row.summary),
-        Language::French => words::operation_sentence(&row.effect, language),
+        Language::French | Language::Other(_) => words::operation_sentence(&row.effect, language),
     }
 }
 

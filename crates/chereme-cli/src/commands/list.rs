@@ -181,7 +181,7 @@ fn print(info: &Info, output: &mut Output) -> Result<()> {
     if let Some(last) = &info.last_operation {
         let what = match language {
             Language::English => format!("{} {}", last.name, last.summary),
-            Language::French => operation_sentence(&last.effect, language),
+            Language::French | Language::Other(_) => operation_sentence(&last.effect, language),
         };
         let (at, who) = (&last.at, &last.author);
         output.filled_line("last change: {at} by {who}: {what}", &[&at, &who, &what])?;

@@ -39,6 +39,7 @@ mod suggest;
 mod tiers;
 mod track;
 mod transcribe;
+mod words;
 
 use std::io::ErrorKind;
 use std::process::ExitCode;
@@ -110,6 +111,7 @@ commands! {
     Undo => history::undo(UndoArgs);
     Redo => history::redo(RedoArgs);
     Log => history::log(LogArgs);
+    Words => words::run(Args);
     Completions => completions::run(Args);
     Man => completions::man(ManArgs);
     Studio => studio::run(Args);

@@ -39,7 +39,7 @@ fn all_help_has_a_french_form() {
     let mut all = BTreeMap::new();
     texts(&Cli::command(), &mut all);
     assert!(all.len() > 300, "{} texts are found", all.len());
-    let french = |text: &str| translated(&StyledStr::from(text.to_owned()));
+    let french = |text: &str| translated(&StyledStr::from(text.to_owned()), Language::French);
     let missing = all.iter().filter(|(text, _)| french(text) == **text);
     let missing: Vec<String> = missing
         .map(|(text, place)| format!("{place}: {text}"))
@@ -70,7 +70,7 @@ fn every_note_behind_an_example_has_a_french_form() {
     let (mut all, mut missing, mut notes) = (Vec::new(), Vec::new(), 0);
     guides(&Cli::command(), &mut all);
     for (name, text) in &all {
-        let french = translated(&StyledStr::from(text.clone()));
+        let french = translated(&StyledStr::from(text.clone()), Language::French);
         assert_eq!(french.lines().count(), text.lines().count(), "{name}");
         for (line, french) in text.lines().zip(french.lines()) {
             let is_note = line.ends_with(')') && line.contains("  (") || !line.starts_with(' ');

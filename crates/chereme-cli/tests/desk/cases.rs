@@ -619,6 +619,31 @@ pub(crate) const CASES: &[Case] = &[
     ("conflicts @c --take mine", 1, ERROR),
     ("check @c", 0, &["/ok", "/checked", "/faults", "/mended"]),
     ("check @in/notes.txt", 1, ERROR),
+    (
+        "words",
+        0,
+        &[
+            "/languages/0/language",
+            "/languages/0/name",
+            "/languages/0/phrases",
+        ],
+    ),
+    (
+        "words --missing de",
+        0,
+        &[
+            "/language",
+            "/translated",
+            "/missing/0/id",
+            "/missing/0/english",
+            "/missing/0/place",
+            "/faults",
+        ],
+    ),
+    ("words --missing tlh", 1, ERROR),
+    ("words --missing de --folder @d", 1, ERROR),
+    ("words --folder @d", 2, ERROR),
+    ("list @c recordings --language tlh", 2, ERROR),
     ("dance @c", 2, ERROR),
     ("log @c --no-such-option", 2, ERROR),
 ];

@@ -274,8 +274,10 @@ fn panel_name(panel: Panel) -> &'static str {
 pub(super) fn document(value: &FacetValue<'_>) -> Value {
     let mut it = json!({ "id": value.id });
     if let Some((_, known)) = value.known {
-        for language in ["en", "fr"] {
-            it[language] = json!(known.name(language));
+        // The page reads the English name where a language has none.
+        it["en"] = json!(known.name("en"));
+        for (language, name) in known.names.iter().filter(|(language, _)| *language != "en") {
+            it[language] = json!(name);
         }
     }
     if let Some(wider) = value.wider {

@@ -36,7 +36,7 @@ use bodies::Bodies;
 use entries::{Entries, Entry, Moves};
 use facets::{CHOSEN, Facet};
 use folder::Folder;
-use pages::{SCRIPT, STYLE, Site};
+use pages::{Site, page_script, page_style};
 
 /// The words for the body that plays the signs, in `consent.json`.
 const SIGNERS: &str = "that of each signer";
@@ -265,8 +265,8 @@ impl Corpus {
         let chosen = CHOSEN.map(|(_, it)| facets::facet(it, &found.all, &inventories));
         let data = write_choices(folder, found, &chosen, &moving, &inventories)?;
         folder.write("data/signs.js", format!("CH.data({data});\n").as_bytes())?;
-        folder.write("app.js", SCRIPT.join("\n").as_bytes())?;
-        folder.write("app.css", STYLE.as_bytes())?;
+        folder.write("app.js", page_script().as_bytes())?;
+        folder.write("app.css", page_style().as_bytes())?;
         folder.write("list.html", site.list(&found.all).as_bytes())?;
         folder.write("index.html", site.index().as_bytes())?;
         let shapes = data["facets"]["h"].as_array();

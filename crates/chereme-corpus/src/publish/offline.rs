@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 
 use super::facets;
 use super::folder::{Folder, Stored};
-use super::png;
+use super::{png, words};
 use crate::db::motion::hex;
 use crate::error::{Error, Result};
 use crate::page::filled;
@@ -38,7 +38,13 @@ pub(super) fn write(folder: &mut Folder, title: &str) -> Result<()> {
     folder.write("offline.txt", list.as_bytes())?;
     folder.write("version.txt", format!("{version}\n").as_bytes())?;
     let days = DAYS.to_string();
-    let worker = filled(WORKER, &[("VERSION", &version), ("DAYS", &days)]);
+    let texts = words::offline_texts(&days).to_string();
+    let parts = [
+        ("VERSION", version.as_str()),
+        ("DAYS", &days),
+        ("TEXTS", &texts),
+    ];
+    let worker = filled(WORKER, &parts);
     folder.write("sw.js", worker.as_bytes())
 }
 

@@ -6,27 +6,42 @@ use crate::db::columns::ValueState;
 use crate::inventories::StoredInventory;
 use crate::map::escaped;
 use crate::page::{filled, quoted};
+use crate::words::{Language, fill};
+use chereme_sign::InventoryValue;
 
 use super::entries::{Entry, Moves};
 use super::facets::known;
 use super::names::in_address;
 use super::source::MovementSource;
-use super::words::{self, both};
+use super::words::{self, in_all, spoken};
 
 const INDEX: &str = include_str!("page/index.html");
 const SIGN: &str = include_str!("page/sign.html");
 const LIST: &str = include_str!("page/list.html");
 
-/// The script of all pages, in one file.
-pub(super) const SCRIPT: [&str; 6] = [
-    include_str!("page/texts.js"),
+/// The code of the script of all pages, in one file.
+const SCRIPT: [&str; 5] = [
     include_str!("page/common.js"),
     include_str!("page/offline.js"),
     include_str!("page/search.js"),
     include_str!("page/player.js"),
     include_str!("page/sign.js"),
 ];
-pub(super) const STYLE: &str = include_str!("page/app.css");
+const STYLE: &str = include_str!("page/app.css");
+
+/// Returns the script of all pages, with its texts in every language.
+pub(super) fn page_script() -> String {
+    let texts = words::script_texts();
+    format!(
+        "\"use strict\";\nconst TEXTS = {texts};\n{}",
+        SCRIPT.join("\n")
+    )
+}
+
+/// Returns the style of all pages.
+pub(super) fn page_style() -> String {
+    format!("{STYLE}{}", words::language_styles())
+}
 
 /// The policy of each page: a browser may only show files of the same folder.
 const POLICY: &str = "default-src 'none'; script-src 'self' file:; style-src 'self' file:; img-src 'self' file: data:; connect-src 'none'; worker-src 'self'; manifest-src 'self'; form-action 'none'; base-uri 'none'";
@@ -46,10 +61,10 @@ pub(super) struct Site<'a> {
 impl Site<'_> {
     fn page(&self, page: &str, parts: &[(&str, &str)]) -> String {
         let title = escaped(self.title);
-        let mut footer = both(&words::LOCAL);
+        let mut footer = spoken("local");
         if let Some(contact) = self.contact {
             let contact = escaped(contact);
-            footer = format!("<p>{} {contact}</p><p>{footer}</p>", both(&words::CONTACT));
+            footer = format!("<p>{} {contact}</p><p>{footer}</p>", spoken("contact"));
         }
         let mut all = vec![
             ("POLICY", POLICY),
@@ -62,8 +77,8 @@ impl Site<'_> {
 
     /// Returns the first page.
     pub(super) fn index(&self) -> String {
-        let link = format!("<a href=\"list.html\">{}</a>", both(&words::ALL));
-        let noscript = format!("{} {link}", both(&words::NO_SCRIPT));
+        let link = format!("<a href=\"list.html\">{}</a>", spoken("all"));
+        let noscript = format!("{} {link}", spoken("no-script"));
         self.page(INDEX, &[("NOSCRIPT", &noscript)])
     }
 
@@ -81,7 +96,12 @@ impl Site<'_> {
             );
         }
         let count = entries.len();
-        let intro = both(&[format!("{count} signs"), format!("{count} signes")]);
+        let name = if count == 1 {
+            "script-sign"
+        } else {
+            "script-signs"
+        };
+        let intro = in_all(|language| fill(words::page_text(name, language), &[("n", &count)]));
         self.page(LIST, &[("INTRO", &intro), ("SIGNS", &signs)])
     }
 
@@ -103,10 +123,10 @@ impl Site<'_> {
             );
         }
         let notes = entry.notes.as_ref().map_or(String::new(), |text| {
-            format!("<h2>{}</h2><p>{}</p>", both(&words::NOTES), escaped(text))
+            format!("<h2>{}</h2><p>{}</p>", spoken("notes"), escaped(text))
         });
         let terms: Vec<String> = entry.terms.iter().map(|it| escaped(it)).collect();
-        let terms = format!("{} {}", both(&words::TERMS), terms.join("; "));
+        let terms = format!("{} {}", spoken("terms"), terms.join("; "));
         self.page(
             SIGN,
             &[
@@ -117,7 +137,7 @@ impl Site<'_> {
                 ("FORM", &self.form(entry)),
                 ("PAIRS", &self.pairs(entry, entries)),
                 ("NOTES", &notes),
-                ("SOURCE", &both(&words::SOURCE)),
+                ("SOURCE", &spoken("source")),
                 ("ORIGIN", &self.origin(entry, body.is_some())),
                 ("TERMS", &terms),
             ],
@@ -135,25 +155,18 @@ impl Site<'_> {
             else {
                 continue;
             };
-            let field = words::field(row.component, row.feature.as_deref(), row.hand, row.phase);
+            let feature = row.feature.as_deref();
+            let field =
+                |language| words::field(row.component, feature, row.hand, row.phase, language);
             let value = match known(self.inventories, row) {
-                Some((_, value)) => self.value(id, [value.name("en"), value.name("fr")]),
+                Some((_, value)) => named_value(value),
                 None => escaped(id),
             };
-            let _ = write!(rows, "<dt>{}</dt><dd>{value}</dd>", both(&field));
+            let _ = write!(rows, "<dt>{}</dt><dd>{value}</dd>", in_all(field));
         }
         match rows.is_empty() {
             true => rows,
-            false => format!("<h2>{}</h2><dl>{rows}</dl>", both(&words::FORM)),
-        }
-    }
-
-    /// Returns a value's id with its name, unless they are alike.
-    fn value(&self, id: &str, names: [&str; 2]) -> String {
-        let alike = names.iter().all(|name| name.replace(' ', "-") == id);
-        match alike {
-            true => escaped(id),
-            false => format!("{} <small>{}</small>", both(&names), escaped(id)),
+            false => format!("<h2>{}</h2><dl>{rows}</dl>", spoken("form")),
         }
     }
 
@@ -170,7 +183,7 @@ impl Site<'_> {
                 "<li><a class=\"pair\" href=\"../{}/index.html\">{}</a> ({}: {} → {})</li>",
                 in_address(&other.name),
                 escaped(&other.gloss),
-                both(&words::coded_field(field)),
+                in_all(|language| words::coded_field(field, language)),
                 escaped(&value(entry)),
                 escaped(&value(other)),
             );
@@ -179,29 +192,38 @@ impl Site<'_> {
             true => rows,
             false => format!(
                 "<h2>{}</h2><ul class=\"pairs\">{rows}</ul>",
-                both(&words::PAIRS)
+                spoken("pairs")
             ),
         }
     }
 
     /// Returns the origin of a sign's movement, the number of its signer, and the body on which it is shown.
     fn origin(&self, entry: &Entry, shown: bool) -> String {
-        let words = match (entry.moves, entry.source) {
-            (Moves::Withheld, _) => words::HELD,
-            (Moves::Never, _) => words::LISTED,
-            (Moves::Public, _) if !shown => words::UNSHOWN,
-            (_, MovementSource::Capture) => words::CAPTURED,
-            (_, MovementSource::Captures) => words::MADE,
-            (_, MovementSource::Notation) => words::NOTATED,
-            (_, MovementSource::Program) => words::GENERATED,
+        let mut text = match (entry.moves, entry.source) {
+            (Moves::Withheld, _) => spoken("held"),
+            (Moves::Never, _) => spoken("listed"),
+            (Moves::Public, _) if !shown => spoken("unshown"),
+            (_, MovementSource::Capture) => spoken("captured"),
+            (_, MovementSource::Captures) => spoken("made"),
+            (_, MovementSource::Notation) => spoken("notated"),
+            (_, MovementSource::Program) => spoken("generated"),
         };
-        let mut text = both(&words);
         if let Some(person) = entry.person.filter(|_| shown) {
-            text.push_str(&format!(" ({} {person})", both(&words::SIGNER)));
+            text.push_str(&format!(" ({} {person})", spoken("signer")));
             if self.own_body {
-                text.push_str(&format!("</p><p>{}", both(&words::OWN_BODY)));
+                text.push_str(&format!("</p><p>{}", spoken("own-body")));
             }
         }
         text
+    }
+}
+
+/// Returns a value's id with its name, unless they are alike.
+fn named_value(value: &InventoryValue) -> String {
+    let name = |language: Language| value.name(language.code()).to_owned();
+    let names = in_all(name);
+    match names.replace(' ', "-") == escaped(&value.id) {
+        true => escaped(&value.id),
+        false => format!("{names} <small>{}</small>", escaped(&value.id)),
     }
 }

@@ -31,7 +31,7 @@ pub fn numbered(count: u64, noun: &str, language: Language) -> String {
 pub(super) fn is_singular(count: u64, language: Language) -> bool {
     match language {
         Language::French => count < 2,
-        Language::English => count == 1,
+        Language::English | Language::Other(_) => count == 1,
     }
 }
 

@@ -12,17 +12,19 @@ pub fn guide(text: &str, language: Language) -> String {
     let Some(book) = phrase_book(language) else {
         return text.to_owned();
     };
-    let lines = text.split('\n').map(|line| translated_line(line, book));
+    let lines = text
+        .split('\n')
+        .map(|line| translated_line(line, book, language));
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn translated_line(line: &str, book: &PhraseBook) -> String {
+fn translated_line(line: &str, book: &PhraseBook, language: Language) -> String {
     let words = line.trim_start();
     let note = words.rsplit("  ").next().unwrap_or(words);
     let in_book = |text: &str| {
         let written = ["guide", "help"].into_iter();
         let mut written = written.filter_map(|kind| book.fixed_text(kind, text));
-        written.next().or_else(|| described_effect(text))
+        written.next().or_else(|| described_effect(text, language))
     };
     for english in [words, note] {
         if let Some(french) = in_book(english) {
@@ -32,14 +34,14 @@ fn translated_line(line: &str, book: &PhraseBook) -> String {
     line.to_owned()
 }
 
-/// Returns the French of what an example of an operator does, or of what a detector finds.
-fn described_effect(english: &str) -> Option<&'static str> {
+/// Returns in `language` what an example of an operator does, or what a detector finds.
+fn described_effect(english: &str, language: Language) -> Option<&'static str> {
     let examples = Step::DESCRIPTIONS.iter().flat_map(|it| it.examples);
-    let effects = examples.map(|(_, effect)| (effect.en, effect.fr));
+    let effects = examples.map(|(_, effect)| (effect.en, effect.of(language)));
     let detectors = DETECTORS.iter().map(|it| it.description().finds);
-    let mut described = effects.chain(detectors.map(|finds| (finds.en, finds.fr)));
+    let mut described = effects.chain(detectors.map(|finds| (finds.en, finds.of(language))));
     let known = described.find(|(known, _)| *known == english);
-    known.map(|(_, french)| french)
+    known.map(|(_, spoken)| spoken)
 }
 
 #[cfg(test)]

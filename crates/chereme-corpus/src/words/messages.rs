@@ -14,7 +14,7 @@ use crate::import::readers::endings;
 
 /// Returns a message in `language`; nothing if the files of words lack it.
 #[must_use]
-pub fn message(text: &str, language: Language) -> Option<String> {
+pub(super) fn message(text: &str, language: Language) -> Option<String> {
     match phrase_book(language) {
         None => Some(text.to_owned()),
         Some(book) => translated_message(text, book),

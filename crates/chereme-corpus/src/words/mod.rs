@@ -1,6 +1,6 @@
 //! Words shared by the command line and the window, in English and French.
 //!
-//! Messages, help, titles and guides lie in the files of `schema/words`, one for each room and language. To add one, write it
+//! Messages, help, titles, guides, menus and the words of pages lie in the files of `schema/words`, one for each room and language. To add one, write it
 //! into the file of its room in each language, under the same id. A text of the tables here is a constant; `{name}` in it is
 //! filled by [`fill`]. To add one, write a line into the table of its part; to add a table, name it in `TABLES` of the tests below.
 
@@ -10,7 +10,6 @@ pub use chereme_sign::words::{Language, Text};
 pub use count::{counted, counted_in, numbered};
 pub use guides::guide;
 use messages::described_messages;
-pub use messages::message;
 use phrases::Phrase;
 
 /// Declares the texts of one part.
@@ -18,7 +17,7 @@ macro_rules! texts {
     ($($name:ident: $en:literal, $fr:literal;)*) => {
         $(
             #[doc = concat!("“", $en, "”")]
-            pub const $name: crate::words::Text = crate::words::Text { en: $en, fr: $fr };
+            pub const $name: crate::words::Text = crate::words::Text::new($en, $fr);
         )*
         #[cfg(test)]
         pub(super) const ALL: &[(&str, crate::words::Text)] = &[$((stringify!($name), $name)),*];
@@ -26,6 +25,7 @@ macro_rules! texts {
 }
 
 mod count;
+pub mod coverage;
 pub mod deletion;
 pub mod effect;
 #[cfg(test)]
@@ -41,6 +41,15 @@ mod phrases;
 pub mod reporting;
 mod sentences;
 pub mod trouble;
+
+/// Returns a message in `language`; nothing if the files of words lack it.
+#[must_use]
+pub fn message(text: &str, language: Language) -> Option<String> {
+    match language {
+        Language::Other(_) => phrases::message_from_folder(text, language),
+        Language::English | Language::French => messages::message(text, language),
+    }
+}
 
 /// Returns a text of the help of commands in `language`; nothing for English, or if the files of words lack it.
 #[must_use]

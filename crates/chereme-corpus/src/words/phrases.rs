@@ -1,31 +1,12 @@
-//! Phrases in English and in another language, from the files of words in `schema/words`.
-//!
-//! `schema/words/LANGUAGE/ROOM.ftl` holds the phrases of a room in Fluent's syntax. A phrase has the same id in all languages;
-//! the id begins with its kind: `message`, `help`, `title`, `guide`, `line`, `history` or `noun`.
-//! A `message` is recognised in a finished text; a `line` is looked up by its English form and filled, so that no name is part of
-//! what is looked at. Comments in the files are for translators.
+//! Phrases in English and in another language, from the folders of words.
 
 use std::collections::BTreeMap;
-use std::sync::OnceLock;
+use std::sync::{LazyLock, OnceLock};
 
-use fluent_syntax::ast::{Entry, Expression, InlineExpression, Pattern, PatternElement};
-use fluent_syntax::parser;
-use include_dir::{Dir, include_dir};
+use chereme_sign::words::folders::{PhrasePart, language_files};
 
 use super::Language;
-use super::parts::find_unquoted;
-
-/// The files of words, in one folder for each language.
-pub(super) static WORD_FILES: Dir<'_> = include_dir!("$CARGO_MANIFEST_DIR/../../schema/words");
-
-/// A piece of a phrase.
-#[derive(Debug, Clone, PartialEq, Eq)]
-enum PhrasePart {
-    /// Words of the phrase itself.
-    Words(String),
-    /// The name of a variable part.
-    Blank(String),
-}
+use super::parts::{find_unquoted, is_quoted};
 
 /// A phrase with blanks for its variable parts.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -43,26 +24,6 @@ impl Phrase {
             rest = after;
         }
         phrase.add_words(rest);
-        phrase
-    }
-
-    fn from_pattern(pattern: &Pattern<&str>) -> Self {
-        let mut phrase = Self::default();
-        for element in &pattern.elements {
-            match element {
-                PatternElement::TextElement { value } => phrase.add_words(value),
-                PatternElement::Placeable { expression } => match expression {
-                    Expression::Inline(InlineExpression::VariableReference { id }) => {
-                        phrase.0.push(PhrasePart::Blank(id.name.to_owned()));
-                    }
-                    Expression::Inline(InlineExpression::StringLiteral { value }) => {
-                        phrase.add_words(value);
-                    }
-                    // Nothing else stands in the files; a test reads them all.
-                    _ => phrase.0.push(PhrasePart::Blank("unknown".to_owned())),
-                },
-            }
-        }
         phrase
     }
 
@@ -204,77 +165,106 @@ impl PhraseBook {
 
 /// Returns the phrases of a language; nothing for English, which is the language of the messages themselves.
 pub(super) fn phrase_book(language: Language) -> Option<&'static PhraseBook> {
-    static FRENCH_BOOK: OnceLock<PhraseBook> = OnceLock::new();
-    match language {
-        Language::English => None,
-        Language::French => Some(FRENCH_BOOK.get_or_init(|| {
-            let mut book = PhraseBook::from_files(language);
-            book.add_messages(super::described_messages());
-            book
-        })),
+    static BOOKS: LazyLock<BTreeMap<&str, OnceLock<PhraseBook>>> = LazyLock::new(|| {
+        let codes = language_files().keys().map(String::as_str);
+        codes.map(|code| (code, OnceLock::new())).collect()
+    });
+    if language == Language::English {
+        return None;
     }
+    let book = BOOKS.get(language.code())?.get_or_init(|| {
+        let mut book = PhraseBook::from_files(language);
+        let beside_code = super::described_messages().filter(|_| language == Language::French);
+        book.add_messages(beside_code);
+        book
+    });
+    Some(book)
+}
+
+/// Returns a message in a third language, whose folder may hold the message and those within it.
+pub(super) fn message_from_folder(text: &str, language: Language) -> Option<String> {
+    let convert = |_: &str, part: &str| {
+        let is_smaller = part.len() < text.len() && !is_quoted(part);
+        let inner = is_smaller.then(|| message_from_folder(part, language));
+        inner.flatten().unwrap_or_else(|| part.to_owned())
+    };
+    let mut pairs = phrase_book(language)?.messages.iter();
+    pairs.find_map(|pair| pair.translate(text, &convert))
 }
 
 /// Returns the phrases of a language by their ids.
 fn read_phrases(language: Language) -> BTreeMap<String, Phrase> {
-    let folder = WORD_FILES.get_dir(language.code());
-    let files = folder.into_iter().flat_map(|folder| folder.files());
-    let mut phrases = BTreeMap::new();
-    for text in files.filter_map(|file| file.contents_utf8()) {
-        // A damaged entry is left out; a test finds it.
-        let (Ok(resource) | Err((resource, _))) = parser::parse(text);
-        for entry in resource.body {
-            if let Entry::Message(message) = entry
-                && let Some(pattern) = &message.value
-            {
-                phrases.insert(message.id.name.to_owned(), Phrase::from_pattern(pattern));
-            }
-        }
-    }
+    let files = language_files().get(language.code());
+    let phrases = files.into_iter().flat_map(|files| files.word_book());
     phrases
+        .map(|(id, phrase)| (id.clone(), Phrase(phrase.parts.clone())))
+        .collect()
 }
 
 #[cfg(test)]
 mod tests {
+    use chereme_sign::words::folders::{WordBook, WordFile, is_sentence, read_word_book};
+
     use super::*;
 
     #[test]
     fn every_file_of_words_is_whole_and_has_each_phrase_once() {
-        let mut counts = Vec::new();
-        for (language, _) in Language::ALL {
-            let mut ids = BTreeMap::new();
-            let folder = WORD_FILES.get_dir(language.code()).expect("a folder");
-            for file in folder.files() {
-                let path = file.path().display().to_string();
-                let text = file.contents_utf8().expect("UTF-8");
-                let resource = parser::parse(text).unwrap_or_else(|(_, errors)| {
-                    panic!("{path}: {errors:?}");
-                });
-                for entry in resource.body {
-                    let Entry::Message(message) = entry else {
-                        let is_comment = matches!(
-                            entry,
-                            Entry::Comment(_) | Entry::GroupComment(_) | Entry::ResourceComment(_)
-                        );
-                        assert!(is_comment, "{path}: {entry:?}");
-                        continue;
-                    };
-                    let before = ids.insert(message.id.name.to_owned(), path.clone());
-                    assert!(before.is_none(), "{path}, {before:?}: {}", message.id.name);
-                    let kind = message.id.name.split('-').next();
+        let own = |code: &'static str| {
+            let files = chereme_data::files_below("schema/words");
+            let files = files.filter(move |(path, _)| path.split('/').next() == Some(code));
+            files.map(|(path, text)| WordFile {
+                path: path.to_owned(),
+                text: text.into(),
+            })
+        };
+        let mut books = BTreeMap::new();
+        for (language, _) in Language::all_listed() {
+            let code = language.code();
+            let mut book = WordBook::new();
+            for file in own(code) {
+                let (phrases, faults) = read_word_book(std::slice::from_ref(&file));
+                assert!(faults.is_empty(), "{faults:?}");
+                let is_entry = |line: &&str| {
+                    line.starts_with(|first: char| first.is_ascii_lowercase()) && line.contains('=')
+                };
+                let entries = file.text.lines().filter(is_entry);
+                assert_eq!(phrases.len(), entries.count(), "{}: twice", file.path);
+                for (id, phrase) in phrases {
+                    let kind = id.split('-').next().unwrap_or_default();
                     let kinds = [
-                        "message", "help", "title", "guide", "line", "history", "noun",
+                        "message", "line", "help", "title", "guide", "menu", "page", "language",
+                        "history", "noun",
                     ];
-                    assert!(kind.is_some_and(|kind| kinds.contains(&kind)), "{path}");
+                    assert!(kinds.contains(&kind), "{}", phrase.place);
+                    let place = phrase.place.clone();
+                    assert_eq!(book.insert(id, phrase), None, "{place}");
                 }
             }
-            counts.push(ids);
+            books.insert(code, book);
         }
-        assert!(counts[0].len() > 3000, "{}", counts[0].len());
-        assert_eq!(
-            counts[0].keys().collect::<Vec<_>>(),
-            counts[1].keys().collect::<Vec<_>>()
-        );
+        let english = &books["en"];
+        assert!(english.len() > 3000, "{}", english.len());
+        assert!(english.keys().eq(books["fr"].keys()));
+        for phrase in books.values().flatten() {
+            let Some(same) = english.get(phrase.0) else {
+                panic!("{}: no such phrase in English", phrase.1.place);
+            };
+            if is_sentence(phrase.0) {
+                continue;
+            }
+            assert_eq!(
+                same.blank_names(),
+                phrase.1.blank_names(),
+                "{}",
+                phrase.1.place
+            );
+        }
+        for id in english
+            .keys()
+            .filter(|id| id.starts_with("menu-") || id.starts_with("page-"))
+        {
+            assert!(books["de"].contains_key(id), "{id} has no German");
+        }
     }
 
     #[test]
@@ -286,6 +276,9 @@ mod tests {
             let other = &others[&id];
             assert!(other.own_length() > 0 || phrase.own_length() == 0, "{id}");
             let kind = id.split('-').next().unwrap_or_default().to_owned();
+            if ["menu", "page", "language", "history", "noun"].contains(&kind.as_str()) {
+                continue;
+            }
             let first = known.insert((kind, phrase.form()), other.clone());
             assert!(first.is_none_or(|first| first == *other), "{id}");
         }

@@ -6,6 +6,7 @@
 use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
+use chereme_sign::words::folders::{is_sentence, language_files};
 use fluent_syntax::ast::{
     Entry, Expression, InlineExpression, Pattern, PatternElement, Variant, VariantKey,
 };
@@ -13,7 +14,6 @@ use fluent_syntax::parser;
 
 use super::Language;
 use super::count::is_singular;
-use super::phrases::WORD_FILES;
 
 /// The messages of a language by their ids.
 type Sentences = BTreeMap<&'static str, Pattern<&'static str>>;
@@ -35,18 +35,15 @@ pub(super) fn sentences(language: Language) -> &'static Sentences {
     static ALL: OnceLock<BTreeMap<&str, Sentences>> = OnceLock::new();
     static NONE: Sentences = Sentences::new();
     let all = ALL.get_or_init(|| {
-        let languages = Language::ALL
-            .into_iter()
-            .map(|(language, _)| language.code());
-        languages.map(|code| (code, read_sentences(code))).collect()
+        let codes = language_files().keys().map(String::as_str);
+        codes.map(|code| (code, read_sentences(code))).collect()
     });
     all.get(language.code()).unwrap_or(&NONE)
 }
 
 fn read_sentences(code: &str) -> Sentences {
-    let paths = ["history", "nouns"].map(|room| format!("{code}/{room}.ftl"));
-    let files = paths.iter().filter_map(|path| WORD_FILES.get_file(path));
-    let texts = files.filter_map(|file| file.contents_utf8());
+    let files = language_files().get(code);
+    let texts = files.into_iter().flat_map(|files| files.sentence_texts());
     let entries = texts.flat_map(|text| {
         let (Ok(resource) | Err((resource, _))) = parser::parse(text);
         resource.body
@@ -55,7 +52,7 @@ fn read_sentences(code: &str) -> Sentences {
         Entry::Message(message) => Some((message.id.name, message.value?)),
         _ => None,
     });
-    messages.collect()
+    messages.filter(|(id, _)| is_sentence(id)).collect()
 }
 
 fn filled_pattern(

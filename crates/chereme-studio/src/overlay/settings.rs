@@ -43,7 +43,7 @@ impl SettingsWindow {
                 .show(ui, |ui| {
                     ui.label(words::LANGUAGE.of(language));
                     ui.horizontal(|ui| {
-                        for (it, name) in Language::ALL {
+                        for (it, name) in Language::all_listed() {
                             ui.selectable_value(&mut changed.language, it, name);
                         }
                     });

@@ -232,7 +232,7 @@ impl Studio {
         ui.weak(words::START_DROP.of(language));
         ui.add_space(8.0);
         ui.horizontal(|ui| {
-            for (it, name) in Language::ALL {
+            for (it, name) in Language::all_listed() {
                 ui.selectable_value(&mut self.settings.language, it, name);
             }
             let steps = ui.button(Action::FirstSteps.row().name.of(language));
@@ -244,7 +244,7 @@ impl Studio {
 
     fn recent_part(&mut self, ui: &mut Ui) {
         let language = self.settings.language;
-        ui.strong(words::RECENT.of(language));
+        ui.strong(Text::from_id("menu-bar-recent").of(language));
         for path in self.settings.recent.iter().take(RECENT) {
             let there = path.is_file();
             let (name, folder) = parts(path);

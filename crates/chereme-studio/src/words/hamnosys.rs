@@ -66,7 +66,7 @@ const DIRECTIONS: [(char, Text); 6] = [
 ];
 
 const fn text(en: &'static str, fr: &'static str) -> Text {
-    Text { en, fr }
+    Text::new(en, fr)
 }
 
 /// Returns the meaning of a symbol, given its name without `ham`.
@@ -89,8 +89,8 @@ pub(crate) fn meaning(name: &str, language: Language) -> Option<String> {
         });
         let directions: Option<Vec<&str>> = directions.collect();
         let and = match language {
-            Language::English => " and ",
             Language::French => " et ",
+            Language::English | Language::Other(_) => " and ",
         };
         let direction = directions
             .filter(|directions| !directions.is_empty())?

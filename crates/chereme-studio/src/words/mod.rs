@@ -15,7 +15,7 @@ pub(crate) fn spoken(text: &str, language: Language) -> String {
 /// Declares the texts of one part of the window.
 macro_rules! texts {
     ($($name:ident: $en:literal, $fr:literal;)*) => {
-        $(pub(crate) const $name: crate::words::Text = crate::words::Text { en: $en, fr: $fr };)*
+        $(pub(crate) const $name: crate::words::Text = crate::words::Text::new($en, $fr);)*
         #[cfg(test)]
         pub(super) const ALL: &[(&str, crate::words::Text)] = &[$((stringify!($name), $name)),*];
     };

@@ -1,18 +1,6 @@
 //! Texts around the panes: menus, start page, notices, settings.
 
 texts! {
-    MENU_FILE: "File", "Fichier";
-    MENU_EDIT: "Edit", "Édition";
-    MENU_ANNOTATION: "Annotation", "Annotation";
-    MENU_VALUE: "Value", "Valeur";
-    MENU_TIMING: "Timing", "Calage";
-    MENU_TIER: "Tier", "Acteur";
-    MENU_PLAY: "Playback", "Lecture";
-    MENU_STAGE: "Stage", "Scène";
-    MENU_VIEW: "View", "Affichage";
-    MENU_PANES: "Panes", "Panneaux";
-    MENU_HELP: "Help", "Aide";
-    RECENT: "Recent corpora", "Corpus récents";
     START_TITLE: "Chereme", "Chereme";
     START_LEAD: "Annotate, search and recombine signed movement.", "Annoter, rechercher et recombiner des signes en mouvement.";
     START_STARTER: "Open the starter corpus", "Ouvrir le corpus de départ";
@@ -52,9 +40,6 @@ texts! {
     READ_ONLY_OPENED: "This corpus can be looked at, searched and exported from, but not changed: its file or folder is write-protected.", "Ce corpus peut être vu, interrogé et exporté, mais pas modifié : son fichier ou son dossier ne peut pas être écrit.";
     READ_ONLY_WHY: "The corpus may only be read here: its file or folder is write-protected. A copy of it elsewhere can be changed.", "Le corpus ne peut être que lu ici : son fichier ou son dossier ne peut pas être écrit. Une copie ailleurs peut être modifiée.";
     ALL_TABS: "All panes of this strip", "Tous les panneaux de cette barre";
-    ANNOTATING: "Annotating", "Annoter";
-    SEARCHING: "Searching", "Rechercher";
-    RECOMBINING: "Recombining", "Recombiner";
     STATUS_MODE: "Mode: {mode}", "Mode : {mode}";
     NOTICE_STORED: "{gloss} is stored.", "{gloss} est enregistré.";
     NOTICE_CHANGED_ELSEWHERE: "Another program changed the corpus; it was read again.", "Un autre programme a modifié le corpus ; il a été relu.";

@@ -8,7 +8,7 @@ let language = hash().get("lang");
 if (!TEXTS[language]) {
   try { language = localStorage.getItem("chereme-language"); } catch { language = null; }
 }
-if (!TEXTS[language]) language = (navigator.language || "en").startsWith("fr") ? "fr" : "en";
+if (!TEXTS[language]) language = Object.keys(TEXTS).find((it) => (navigator.language || "").startsWith(it)) || "en";
 
 const t = (name, values) => {
   let text = TEXTS[language][name];
@@ -31,15 +31,17 @@ function el(name, attributes, ...children) {
 function speak() {
   document.documentElement.dataset.lang = language;
   document.documentElement.lang = language;
-  const button = document.getElementById("language");
-  button.hidden = false;
-  button.textContent = t("language");
-  button.lang = language === "en" ? "fr" : "en";
+  const choice = document.getElementById("language");
+  choice.hidden = false;
+  choice.value = language;
+  choice.setAttribute("aria-label", t("choose-language"));
 }
 
 function changeLanguage(after) {
-  document.getElementById("language").addEventListener("click", () => {
-    language = language === "en" ? "fr" : "en";
+  const choice = document.getElementById("language");
+  for (const it in TEXTS) choice.append(el("option", { value: it, lang: it }, TEXTS[it].language));
+  choice.addEventListener("change", () => {
+    language = choice.value;
     try { localStorage.setItem("chereme-language", language); } catch { /* It is chosen again next time. */ }
     speak();
     after();

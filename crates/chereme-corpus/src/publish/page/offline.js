@@ -60,11 +60,11 @@ function copyLines() {
     if (!copy) return;
     const { forgotten, busy, failed, files, kept, bytes } = copy;
     const done = !forgotten && files > 0 && kept >= files;
-    says.textContent = forgotten ? t("copyNone") : busy ? t(files ? "copyBusy" : "copyBegins", { kept, files }) : done ? t("copyAll") : failed ? t("copyFailed", { kept, files }) : t("copyPart");
+    says.textContent = forgotten ? t("copy-none") : busy ? t(files ? "copy-busy" : "copy-begins", { kept, files }) : done ? t("copy-all") : failed ? t("copy-failed", { kept, files }) : t("copy-part");
     all.hidden = busy || done;
-    all.textContent = bytes ? t("copyKeep", { size: megabytes(bytes) }) : t("copyAgain");
+    all.textContent = bytes ? t("copy-keep", { size: megabytes(bytes) }) : t("copy-again");
     none.hidden = Boolean(forgotten);
-    none.textContent = t("copyForget");
+    none.textContent = t("copy-forget");
   }
   return { line, draw };
 }

@@ -1,5 +1,6 @@
 // The first page: text, four choices, signs that fit, and signs that nearly fit.
 
+const GROUPS = ["fist", "thumb", "index", "little", "two", "three", "four", "five", "ring", "other", "word"];
 const FACETS = ["h", "p", "m", "n"];
 const SHOWN = 60;
 const NEAR = 36;
@@ -178,8 +179,7 @@ function roving(group) {
 
 function handshapes() {
   const values = data.facets.h;
-  const order = Object.keys(TEXTS.en.groups);
-  const groups = order.filter((group) => values.some((it) => it.group === group));
+  const groups = GROUPS.filter((group) => values.some((it) => it.group === group));
   const hint = values.some((it) => it.as) && el("p", { class: "hint", "data-t": "namesakes" });
   return [hint, ...groups.map((group) => {
     const own = values.map((value, at) => [value, at]).filter((it) => it[0].group === group);
@@ -244,7 +244,7 @@ function build() {
     el("p", { class: "row" }, el("label", { for: "q", "data-t": "search" }), search, el("button", { type: "button", id: "clear", "data-t": "clear", onclick: clear })),
     el("p", { class: "hint", "data-t": "about" }),
     picker("h", "shape", handshapes()) || "", picker("p", "place", places()) || "", picker("m", "movement", movements()) || "", picker("n", "hands", hands()) || "",
-    el("p", { class: "hint keys", "data-t": "keysSearch" }));
+    el("p", { class: "hint keys", "data-t": "keys-search" }));
   document.getElementById("answer").append(el("p", { id: "total", role: "status" }), el("ol", { id: "exact", class: "cards" }), el("p", { id: "moreRow" }, el("button", { type: "button", id: "more", "data-t": "more", onclick: () => { shown += 4 * SHOWN; update(); } })),
     el("h2", { id: "nearTitle", "data-t": "near" }), el("ol", { id: "near", class: "cards" }));
   document.querySelector("footer").append(copyShown.line);
@@ -285,12 +285,12 @@ function update() {
   speak();
   for (const it of document.querySelectorAll("[data-t]")) it.textContent = t(it.dataset.t);
   for (const it of document.querySelectorAll("[data-group]")) {
-    it.querySelector("h2").textContent = t("groups")[it.dataset.group];
-    it.setAttribute("aria-label", t("groups")[it.dataset.group]);
+    it.querySelector("h2").textContent = t("groups-" + it.dataset.group);
+    it.setAttribute("aria-label", t("groups-" + it.dataset.group));
   }
   for (const it of document.querySelectorAll("[data-label]")) it.setAttribute("aria-label", t(it.dataset.label));
   for (const it of document.querySelectorAll("[data-like]")) it.textContent = t("like", { shape: it.dataset.like });
-  for (const it of document.querySelectorAll("[data-panel] figcaption")) it.textContent = t("panels")[it.parentElement.dataset.panel];
+  for (const it of document.querySelectorAll("[data-panel] figcaption")) it.textContent = t("panels-" + it.parentElement.dataset.panel);
   const answer = found();
   for (const { facet, key, label, button, count } of buttons) {
     const n = answer.counts[facet].get(key) || 0;
@@ -306,7 +306,7 @@ function update() {
   for (const details of document.querySelectorAll("details[data-facet]")) {
     const key = state[details.dataset.facet];
     const known = buttons.find((it) => it.facet === details.dataset.facet && it.key === key);
-    details.querySelector(".chosen").textContent = known ? (key.startsWith("@") ? t("groups")[key.slice(1)] : known.label()) : "";
+    details.querySelector(".chosen").textContent = known ? (key.startsWith("@") ? t("groups-" + key.slice(1)) : known.label()) : "";
   }
   const n = answer.exact.length;
   document.getElementById("total").textContent = n === 0 ? t("none") : n === 1 ? t("sign") : t("signs", { n });

@@ -25,7 +25,7 @@ function signPage(stage) {
     for (const it of controls.children) {
       const name = it.dataset.name;
       if (name === "play") it.textContent = player && player.playing ? t("pause") : t("play");
-      else if (name === "slow") it.textContent = t("slow") + " " + (player ? String(player.speed).replace(".", language === "fr" ? "," : ".") : 1) + "×";
+      else if (name === "slow") it.textContent = t("slow") + " " + (player ? player.speed : 1).toLocaleString(language) + "×";
       else if (name === "camera") it.textContent = t("camera") + ": " + t(player && player.camera === "hands" ? "near2" : player ? player.camera : "front");
       else it.textContent = t(name);
       if (name === "mirror") it.setAttribute("aria-pressed", String(Boolean(player && player.mirror)));

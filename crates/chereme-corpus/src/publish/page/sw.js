@@ -7,6 +7,7 @@
 const VERSION = "@@VERSION@@";
 // For so many days without a connection the copy is shown.
 const DAYS = @@DAYS@@;
+const TEXTS = @@TEXTS@@;
 const SCOPE = self.registration.scope;
 const FAMILY = "chereme " + SCOPE + " ";
 const OWN = FAMILY + VERSION;
@@ -181,13 +182,9 @@ async function answer(request, name) {
 }
 
 function notice(hasCopy) {
-  const texts = hasCopy
-    ? ["There is no connection, and this page is not in the copy on this device.", "Il n’y a pas de connexion, et cette page n’est pas dans la copie sur cet appareil."]
-    : ["There is no connection. A copy on this device is shown for at most " + DAYS + " days without one, and only while nothing was withdrawn.",
-      "Il n’y a pas de connexion. Une copie sur cet appareil est montrée pendant " + DAYS + " jours au plus sans connexion, et seulement si rien n’a été retiré."];
-  const search = hasCopy ? "<p><a href=\"" + SCOPE + "index.html\">Search · Recherche</a></p>" : "";
-  const page = "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>No connection · Pas de connexion</title>"
-    + "<main><h1>No connection · <span lang=\"fr\">Pas de connexion</span></h1><p>" + texts[0] + "</p><p lang=\"fr\">" + texts[1] + "</p>" + search + "</main></html>";
+  const says = hasCopy ? TEXTS.missing + "<p><a href=\"" + SCOPE + "index.html\">" + TEXTS.search + "</a></p>" : TEXTS.old;
+  const page = "<!DOCTYPE html><html lang=\"en\"><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"><title>" + TEXTS.name + "</title>"
+    + "<main><h1>" + TEXTS.title + "</h1>" + says + "</main></html>";
   return new Response(page, { status: 503, headers: { "Content-Type": "text/html; charset=utf-8" } });
 }
 

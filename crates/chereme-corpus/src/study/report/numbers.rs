@@ -16,7 +16,7 @@ pub fn number(value: f64, decimals: usize, language: Language) -> String {
     };
     match language {
         Language::French => text.replace('.', ","),
-        Language::English => text,
+        Language::English | Language::Other(_) => text,
     }
 }
 
@@ -37,7 +37,7 @@ pub fn level(level: f64, language: Language) -> String {
 fn with_sign(number: String, language: Language) -> String {
     match language {
         Language::French => format!("{number}\u{a0}%"),
-        Language::English => format!("{number}%"),
+        Language::English | Language::Other(_) => format!("{number}%"),
     }
 }
 

@@ -1,6 +1,7 @@
 //! The arguments of the program: read from words into a request.
 
 use std::ffi::{OsStr, OsString};
+use std::fmt::Display;
 use std::path::PathBuf;
 
 use chereme_corpus::words::{Language, fill};
@@ -53,7 +54,12 @@ impl Wrong {
             Self::Value(option, value) => (words::VALUE, option, value.as_str()),
             Self::Second(corpus) => (words::SECOND, corpus, ""),
         };
-        fill(text.of(language), &[("option", option), ("value", &value)])
+        let listed = Language::all_listed().into_iter();
+        let codes: Vec<&str> = listed.map(|(language, _)| language.code()).collect();
+        let codes = codes.join(", ");
+        let values: [(&str, &dyn Display); 3] =
+            [("option", option), ("value", &value), ("codes", &codes)];
+        fill(text.of(language), &values)
     }
 }
 
@@ -66,12 +72,7 @@ pub(crate) fn language(given: &[OsString]) -> Option<Language> {
         .windows(2)
         .filter(|pair| pair[0] == "--language")
         .filter_map(|pair| pair[1].to_str());
-    joined.chain(parted).find_map(of_code)
-}
-
-fn of_code(code: &str) -> Option<Language> {
-    let mut all = Language::ALL.into_iter().map(|(language, _)| language);
-    all.find(|language| language.code() == code)
+    joined.chain(parted).find_map(Language::from_code)
 }
 
 /// Reads the words after the name of the program.
@@ -96,7 +97,7 @@ pub(crate) fn read(given: Vec<OsString>) -> Result<Request, Wrong> {
             "--author" => asked.author = Some(shown(&needed()?)),
             "--language" => {
                 let code = shown(&needed()?);
-                let language = of_code(&code);
+                let language = Language::from_code(&code);
                 let wrong = || Wrong::Value(option.to_owned(), code);
                 asked.language = Some(language.ok_or_else(wrong)?);
             }
@@ -166,9 +167,9 @@ mod tests {
                 Wrong::Valueless("--folder".into()),
             ),
             (
-                "--language de",
-                "de",
-                Wrong::Value("--language".into(), "de".into()),
+                "--language tlh",
+                "tlh",
+                Wrong::Value("--language".into(), "tlh".into()),
             ),
             ("a b", " b ", Wrong::Second("b".into())),
         ] {
@@ -191,6 +192,6 @@ mod tests {
             language(&words("--language=en --x")),
             Some(Language::English)
         );
-        assert_eq!(language(&words("--language de")), None);
+        assert_eq!(language(&words("--language tlh")), None);
     }
 }

@@ -8,6 +8,8 @@ mod words;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use chereme_corpus::remedy::Remedy;
+use chereme_corpus::words::coverage::use_word_folder;
 use chereme_corpus::words::{Language, fill, message, trouble};
 use chereme_studio::{Folders, Options};
 use serde_json::json;
@@ -22,7 +24,13 @@ fn main() -> ExitCode {
     let given: Vec<_> = std::env::args_os().skip(1).collect();
     let json = given.iter().any(|word| word == "--json");
     let system = Language::of_environment(variable);
+    let words = std::env::var_os("CHEREME_WORDS").filter(|folder| !folder.is_empty());
+    let words = words.map_or(Ok(()), |folder| use_word_folder(folder.as_ref()));
     let language = arguments::language(&given).unwrap_or(system);
+    if let Err(error) = words {
+        return Report { json, language }
+            .error(&error.to_string(), error.remedy().map_or("", Remedy::text));
+    }
     match arguments::read(given) {
         Ok(Request::Help) => print(words::HELP.of(language).trim_end()),
         Ok(Request::Version) => print(concat!("chereme-studio ", env!("CARGO_PKG_VERSION"))),
@@ -65,17 +73,7 @@ fn open(asked: Asked, system: Language, report: &Report) -> ExitCode {
     let Err(error) = chereme_studio::run(options) else {
         return ExitCode::SUCCESS;
     };
-    let spoken = |text: &str| {
-        let known = message(text, report.language).filter(|_| !report.json);
-        known.unwrap_or_else(|| text.to_owned())
-    };
-    let english = error.to_string();
-    report.failure(
-        &english,
-        &spoken(&english),
-        &spoken(error.remedy()),
-        ExitCode::FAILURE,
-    )
+    report.error(&error.to_string(), error.remedy())
 }
 
 /// The form in which failures are reported.
@@ -86,6 +84,20 @@ struct Report {
 }
 
 impl Report {
+    /// Reports an error of the library.
+    fn error(&self, english: &str, remedy: &str) -> ExitCode {
+        let spoken = |text: &str| {
+            let known = message(text, self.language).filter(|_| !self.json);
+            known.unwrap_or_else(|| text.to_owned())
+        };
+        self.failure(
+            english,
+            &spoken(english),
+            &spoken(remedy),
+            ExitCode::FAILURE,
+        )
+    }
+
     /// Reports a failure with its message in English and in the language of the user, and returns `code`.
     fn failure(&self, english: &str, spoken: &str, remedy: &str, code: ExitCode) -> ExitCode {
         // A closed output is not an error.

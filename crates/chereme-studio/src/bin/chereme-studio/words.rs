@@ -3,38 +3,33 @@
 use chereme_corpus::words::Text;
 
 /// An option that the program does not have.
-pub(crate) const UNKNOWN: Text = Text {
-    en: "unknown option {option}",
-    fr: "option inconnue : {option}",
-};
+pub(crate) const UNKNOWN: Text = Text::new("unknown option {option}", "option inconnue : {option}");
 
 /// An option without its value.
-pub(crate) const VALUELESS: Text = Text {
-    en: "{option} needs a value",
-    fr: "{option} demande une valeur",
-};
+pub(crate) const VALUELESS: Text =
+    Text::new("{option} needs a value", "{option} demande une valeur");
 
 /// A value that an option does not take.
-pub(crate) const VALUE: Text = Text {
-    en: "{option} takes en or fr, not {value}",
-    fr: "{option} prend en ou fr, pas {value}",
-};
+pub(crate) const VALUE: Text = Text::new(
+    "{option} takes one of {codes}, not {value}",
+    "{option} prend un de {codes}, pas {value}",
+);
 
 /// A second corpus.
-pub(crate) const SECOND: Text = Text {
-    en: "one corpus can be opened at once; {option} is a second one",
-    fr: "un seul corpus s’ouvre à la fois ; {option} en est un deuxième",
-};
+pub(crate) const SECOND: Text = Text::new(
+    "one corpus can be opened at once; {option} is a second one",
+    "un seul corpus s’ouvre à la fois ; {option} en est un deuxième",
+);
 
 /// The remedy for wrong arguments.
-pub(crate) const SEE_HELP: Text = Text {
-    en: "chereme-studio --help lists the options",
-    fr: "chereme-studio --help donne la liste des options",
-};
+pub(crate) const SEE_HELP: Text = Text::new(
+    "chereme-studio --help lists the options",
+    "chereme-studio --help donne la liste des options",
+);
 
 /// The help.
-pub(crate) const HELP: Text = Text {
-    en: "\
+pub(crate) const HELP: Text = Text::new(
+    "\
 Open the workbench: annotate, search and recombine in a window
 
 Without a corpus the window offers the starter corpus, recent corpora, and the import of a folder. The settings are
@@ -50,13 +45,13 @@ Options:
       --folder <DIR>     The folder for the settings and the starter corpus, instead of the platform's
       --author <NAME>    Your name in the history; without it the environment variable CHEREME_AUTHOR, or the name of
                          the machine's user
-      --language <CODE>  The language of the window and of messages: en or fr; without it that of the settings, or of
-                         the system
+      --language <CODE>  The language of the window and of messages, such as fr; without it that of the settings, or of
+                         the system. The environment variable CHEREME_WORDS names a folder with languages of your own
       --json             Print an error as one JSON document on standard output
   -h, --help             Print help
   -V, --version          Print version
 ",
-    fr: "\
+    "\
 Ouvrir l’atelier : annoter, chercher et recombiner dans une fenêtre
 
 Sans corpus, la fenêtre propose le corpus de départ, les corpus récents, et l’import d’un dossier. Les réglages sont
@@ -72,9 +67,10 @@ Options :
       --folder <DIR>     Le dossier des réglages et du corpus de départ, au lieu de celui du système
       --author <NOM>     Votre nom dans l’historique ; sinon la variable d’environnement CHEREME_AUTHOR, ou le nom de
                          l’utilisateur de la machine
-      --language <CODE>  La langue de la fenêtre et des messages : en ou fr ; sinon celle des réglages, ou du système
+      --language <CODE>  La langue de la fenêtre et des messages, comme fr ; sinon celle des réglages, ou du système.
+                         La variable d’environnement CHEREME_WORDS nomme un dossier avec vos propres langues
       --json             Écrire une erreur en un document JSON sur la sortie standard
   -h, --help             Afficher l’aide
   -V, --version          Afficher la version
 ",
-};
+);

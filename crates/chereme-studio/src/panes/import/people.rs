@@ -6,7 +6,7 @@ use super::data::axes_parts;
 use crate::words::{Language, Text, fill, import as words, spoken};
 
 const fn text(en: &'static str, fr: &'static str) -> Text {
-    Text { en, fr }
+    Text::new(en, fr)
 }
 
 /// Parts that occur once.

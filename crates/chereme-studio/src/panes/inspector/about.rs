@@ -339,10 +339,7 @@ pub(super) fn sign(
             ui.end_row();
         }
         let key = Id::unique(("sign text", sign.id));
-        let language = match seen.language {
-            crate::words::Language::English => "en",
-            crate::words::Language::French => "fr",
-        };
+        let language = seen.language.code();
         if let Some(text) = line(ui, seen, key, words::TEXT_NEW, "") {
             let add_texts = vec![(language.to_owned(), text)];
             change(
@@ -398,10 +395,7 @@ pub(super) fn value(
     title(ui, seen.say(words::INVENTORY_VALUE), id);
     let (rect, _) = ui.allocate_exact_size(vec2(110.0, 110.0), Sense::hover());
     crate::pickers::picture(ui, rect, seen, stored, id);
-    let code = match seen.language {
-        crate::words::Language::English => "en",
-        crate::words::Language::French => "fr",
-    };
+    let code = seen.language.code();
     grid(ui, "value", |ui| {
         name_and_value(ui, seen, words::INVENTORY, &stored.id);
         if let Some(name) = value.names.get(code) {

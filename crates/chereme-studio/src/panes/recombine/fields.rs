@@ -282,11 +282,7 @@ pub(super) fn directions(
 
 /// Returns the name of a value of an inventory, if it differs from its id.
 fn called(value: &InventoryValue, seen: &PaneInput<'_>) -> Option<String> {
-    let code = match seen.language {
-        crate::words::Language::English => "en",
-        crate::words::Language::French => "fr",
-    };
-    value.names.get(code).cloned()
+    value.names.get(seen.language.code()).cloned()
 }
 
 /// Shows a value from the inventories of a component: a text field with completion.

@@ -1,0 +1,2 @@
+# The language's own name for itself, for the choice of languages.
+language-name = English
