@@ -151,6 +151,7 @@ fn hands_that_wait_in_front_of_the_belly_are_at_rest() {
     let lows = Looks {
         clip: &clip,
         anatomy: &anatomy,
+        first: 0,
     }
     .at(0)
     .low;

@@ -1,0 +1,32 @@
+//! Makes a corpus of the starter files and finds signs in it: `cargo run -p chereme-corpus --example open_and_search`.
+
+#![allow(clippy::print_stdout, reason = "a program prints its answer")]
+
+use std::error::Error;
+
+use chereme_corpus::{Corpus, ImportOptions, Progress, SearchOptions, unheard, unpack_starter};
+
+pub(crate) fn main() -> Result<(), Box<dyn Error>> {
+    let folder = tempfile::tempdir()?;
+    let files = unpack_starter(&folder.path().join("files"))?;
+
+    // Each change is one operation under a person's name; progress is told to whoever listens.
+    let path = folder.path().join("starter.chereme");
+    let mut corpus = Corpus::create(&path, "Ada")?;
+    let mut listener = unheard;
+    corpus.import(
+        &files,
+        &ImportOptions::default(),
+        &mut Progress::new(&mut listener),
+    )?;
+
+    // A corpus is a file: it is opened again wherever it lies.
+    let mut corpus = Corpus::open(&path, "Ada")?;
+    let answer = corpus.search("right.configuration=U", &SearchOptions::default())?;
+    println!("{}: {} signs", answer.query, answer.total);
+    for hit in &answer.hits {
+        let place = hit.recording.as_deref().unwrap_or("the lexicon");
+        println!("  {} in {place}", hit.gloss);
+    }
+    Ok(())
+}
