@@ -262,7 +262,7 @@ fn carry_out(
     let deeds = std::mem::take(&mut work.deeds);
     let mut report = work.finish(changes.len(), progress)?;
     report.effect = deeds.effect(&report);
-    report.summary = report.effect.summary();
+    (_, report.summary, _) = OperationEffect::Annotate(report.effect.clone()).stored_texts();
     Ok(report)
 }
 

@@ -84,17 +84,6 @@ pub enum Decision {
     Both,
 }
 
-impl Decision {
-    /// Returns its word, as the command line takes it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Mine => "mine",
-            Self::Theirs => "theirs",
-            Self::Both => "both",
-        }
-    }
-}
-
 /// A conflict as it is stored.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Open {

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-use super::count::counted;
+use super::history::operation_summary;
 use crate::merge::Decision;
 
 /// What an operation did. It is stored as JSON, whose `does` is the name of the operation with hyphens for its spaces.
@@ -219,51 +219,6 @@ pub enum ValuedThing {
     Annotation,
 }
 
-impl ValuedThing {
-    pub(super) const ALL: [Self; 6] = [
-        Self::Handshape,
-        Self::Placement,
-        Self::Movement,
-        Self::Orientation,
-        Self::Gloss,
-        Self::Annotation,
-    ];
-
-    /// Returns the English noun for one of them, or for several.
-    pub(super) fn noun(self, count: u64) -> &'static str {
-        let [one, several] = match self {
-            Self::Handshape => ["handshape", "handshapes"],
-            Self::Placement => ["placement", "placements"],
-            Self::Movement => ["movement", "movements"],
-            Self::Orientation => ["orientation", "orientations"],
-            Self::Gloss => ["gloss", "glosses"],
-            Self::Annotation => ["annotation", "annotations"],
-        };
-        if count == 1 { one } else { several }
-    }
-}
-
-impl AnnotationDeed {
-    fn summary(&self) -> String {
-        let annotations = |count: &u64| counted(*count, "annotations");
-        match self {
-            Self::AnnotationsAdded { count } => format!("{count} added"),
-            Self::AnnotationsChanged { count } => format!("{count} changed"),
-            Self::AnnotationsRemoved { count } => format!("{count} removed"),
-            Self::AnnotationsMoved { count } => format!("{} moved", annotations(count)),
-            Self::AnnotationsMerged { count } => format!("{} merged", annotations(count)),
-            Self::AnnotationsSplit { count } => format!("{} split", annotations(count)),
-            Self::AnnotationsValued { count, of, value } => {
-                format!("{count} {} changed to {value}", of.noun(*count))
-            }
-            Self::AnnotationsRevalued { count } => {
-                let verb = if *count == 1 { "says" } else { "say" };
-                format!("{} {verb} something else", annotations(count))
-            }
-        }
-    }
-}
-
 impl AnnotationEffect {
     /// Creates the effect of changes in recordings, given by their names.
     pub(crate) fn from_changes(changes: Vec<AnnotationDeed>, recordings: &[String]) -> Self {
@@ -287,15 +242,6 @@ impl AnnotationEffect {
         });
         removed.sum()
     }
-
-    pub(crate) fn summary(&self) -> String {
-        let changes: Vec<String> = self.changes.iter().map(AnnotationDeed::summary).collect();
-        let place = match self.recordings {
-            1 => self.recording.clone(),
-            several => counted(several, "recordings"),
-        };
-        format!("{} in {place}", changes.join(", "))
-    }
 }
 
 impl OperationEffect {
@@ -312,7 +258,7 @@ impl OperationEffect {
         }
         let json = self.to_json();
         let name = json["does"].as_str().unwrap_or_default().replace('-', " ");
-        (name, self.summary(), Some(json.to_string()))
+        (name, operation_summary(self), Some(json.to_string()))
     }
 
     /// Reads the effect of a stored operation; without JSON that this program understands, its texts are all there is.
@@ -324,139 +270,66 @@ impl OperationEffect {
         })
     }
 
-    /// Returns the summary in English, as programs get it.
-    fn summary(&self) -> String {
+    /// Returns the form of the summary: `{field}` stands for a field, `{quoted field}` for one in quotation marks.
+    pub(super) fn summary_form(&self) -> &'static str {
         match self {
-            Self::Import { count: 0, .. } => "nothing new".to_owned(),
-            Self::Import {
-                count: 1, first, ..
-            } => first.clone(),
-            Self::Import { count, first, last } => format!("{count} files from {first} to {last}"),
-            Self::Recombine { gloss, recipe } | Self::RecombineAgain { gloss, recipe } => {
-                format!("{gloss} = {recipe}")
-            }
+            Self::Import { count: 0, .. } => "nothing new",
+            Self::Import { count: 1, .. } => "{first}",
+            Self::Import { .. } => "{count} files from {first} to {last}",
+            Self::Recombine { .. } | Self::RecombineAgain { .. } => "{gloss} = {recipe}",
             Self::Annotate(annotations)
             | Self::Propose(annotations)
-            | Self::Accept { annotations, .. } => annotations.summary(),
-            Self::Adjudicate { tier } => tier.clone(),
-            Self::AddTier { tier, recording } => format!("{tier:?} to {recording}"),
-            Self::ChangeTier { tier, recording } => format!("{tier:?} of {recording}"),
-            Self::RemoveTier {
-                tiers,
-                annotations,
-                recording,
-            } => {
-                let annotations = counted(*annotations, "annotations");
-                format!("{} with {annotations} from {recording}", tiers.join(", "))
-            }
-            Self::AddTiers { count, recording } => format!("{count} to {recording}"),
-            Self::CopyTier {
-                tier,
-                recording,
-                copy,
-                annotations,
-            } => {
-                let annotations = counted(*annotations, "annotations");
-                format!("{tier:?} of {recording} as {copy:?} with {annotations}")
-            }
-            Self::OrderTiers { recording }
-            | Self::ChangeRecording { recording }
-            | Self::ChangeMedia { recording } => recording.clone(),
-            Self::AddValue { value, inventory } => format!("{value} to {inventory}"),
-            Self::MergeValues {
-                value,
-                into,
-                inventory,
-            } => {
-                format!("{value} into {into} in {inventory}")
-            }
-            Self::ChangeSigner { signer } => signer.clone(),
-            Self::ChangeSign {
-                sign, former: None, ..
-            } => sign.clone(),
-            Self::ChangeSign {
-                sign,
-                former: Some(former),
-                annotations,
-            } => {
-                format!(
-                    "{former} to {sign}, {}",
-                    counted(*annotations, "annotations")
-                )
-            }
-            Self::SetCitation { token, gloss } => format!("token:{token} for {gloss}"),
-            Self::Transcribe { token, gloss } => format!("token:{token} {gloss}"),
-            Self::AddTracks { recording, tracks } => format!("{recording}: {}", tracks.join(", ")),
-            Self::ChangeTrack {
-                recording,
-                track,
-                change,
-            } => match change {
-                TrackEffect::Moved { seconds } => {
-                    format!("{recording}: {track} starts at {seconds} s")
-                }
-                TrackEffect::Renamed { to } => format!("{recording}: {track} is now {to}"),
-                TrackEffect::Removed => format!("{recording}: {track} removed"),
+            | Self::Accept { annotations, .. } => match annotations.recordings {
+                1 => "{changes} in {recording}",
+                _ => "{changes} in {recordings} recordings",
             },
-            Self::FitMarkers {
-                recording,
-                markers,
-                subject,
-                millimetres,
-            } => {
-                let person = subject.as_ref().map(|it| format!(" of {it}"));
-                let person = person.unwrap_or_default();
-                format!("{recording}: a skeleton fitted to {markers}{person}, {millimetres} mm")
+            Self::Adjudicate { .. } => "{tier}",
+            Self::AddTier { .. } => "{quoted tier} to {recording}",
+            Self::ChangeTier { .. } => "{quoted tier} of {recording}",
+            Self::RemoveTier { .. } => "{tiers} with {annotations} from {recording}",
+            Self::AddTiers { .. } => "{count} to {recording}",
+            Self::CopyTier { .. } => {
+                "{quoted tier} of {recording} as {quoted copy} with {annotations}"
             }
-            Self::RestoreMarkers { places, recordings } => {
-                format!("{places} places of {recordings} recordings")
+            Self::OrderTiers { .. } | Self::ChangeRecording { .. } | Self::ChangeMedia { .. } => {
+                "{recording}"
             }
-            Self::FitFace {
-                track,
-                signer,
-                recording,
-            } => {
-                format!("weights of {track} fitted to {signer} on {recording}")
+            Self::AddValue { .. } => "{value} to {inventory}",
+            Self::MergeValues { .. } => "{value} into {into} in {inventory}",
+            Self::ChangeSigner { .. } => "{signer}",
+            Self::ChangeSign { former: None, .. } => "{sign}",
+            Self::ChangeSign { .. } => "{former} to {sign}, {annotations}",
+            Self::SetCitation { .. } => "token:{token} for {gloss}",
+            Self::Transcribe { .. } => "token:{token} {gloss}",
+            Self::AddTracks { .. } => "{recording}: {tracks}",
+            Self::ChangeTrack { change, .. } => match change {
+                TrackEffect::Moved { .. } => "{recording}: {track} starts at {seconds} s",
+                TrackEffect::Renamed { .. } => "{recording}: {track} is now {to}",
+                TrackEffect::Removed => "{recording}: {track} removed",
+            },
+            Self::FitMarkers { subject: None, .. } => {
+                "{recording}: a skeleton fitted to {markers}, {millimetres} mm"
             }
-            Self::CueFromDictionary { gloss, movements } => {
-                format!("{gloss} from {movements} movements")
+            Self::FitMarkers { .. } => {
+                "{recording}: a skeleton fitted to {markers} of {subject}, {millimetres} mm"
             }
-            Self::FindTargets { keys, recordings } => {
-                format!("{keys} keys of {recordings} recordings")
+            Self::RestoreMarkers { .. } => "{places} places of {recordings} recordings",
+            Self::FitFace { .. } => "weights of {track} fitted to {signer} on {recording}",
+            Self::CueFromDictionary { .. } => "{gloss} from {movements} movements",
+            Self::FindTargets { .. } => "{keys} keys of {recordings} recordings",
+            Self::KeepSearch { .. } | Self::Delete { .. } | Self::ChangeConsent { .. } => "{names}",
+            Self::RenameSearch { .. } => "{from} to {to}",
+            Self::ForgetSearch { .. } => "{name}",
+            Self::PlanStudy { .. } | Self::ForgetParticipant { .. } | Self::DeleteStudy { .. } => {
+                "{study}"
             }
-            Self::KeepSearch { names } | Self::Delete { names } | Self::ChangeConsent { names } => {
-                names.join(", ")
+            Self::ImportAnswers { .. } => "{study}, {participants}",
+            Self::Merge { .. } => {
+                "{from}: {added} added, {changed} changed, {removed} removed, {conflicts}"
             }
-            Self::RenameSearch { from, to } => format!("{from} to {to}"),
-            Self::ForgetSearch { name } => name.clone(),
-            Self::PlanStudy { study }
-            | Self::ForgetParticipant { study }
-            | Self::DeleteStudy { study } => study.clone(),
-            Self::ImportAnswers {
-                study,
-                participants,
-            } => {
-                format!("{study}, {}", counted(*participants, "participants"))
-            }
-            Self::Merge {
-                from,
-                added,
-                changed,
-                removed,
-                conflicts,
-            } => {
-                let conflicts = counted(*conflicts, "conflicts");
-                format!("{from}: {added} added, {changed} changed, {removed} removed, {conflicts}")
-            }
-            Self::Decide {
-                conflicts,
-                decision,
-            } => {
-                let numbers: Vec<String> = conflicts.iter().map(ToString::to_string).collect();
-                format!("conflict {}: {}", numbers.join(", "), decision.name())
-            }
-            Self::Mend {} => "tokens derived again".to_owned(),
-            Self::Told { summary, .. } => summary.clone(),
+            Self::Decide { .. } => "conflict {conflicts}: {decision}",
+            Self::Mend {} => "tokens derived again",
+            Self::Told { .. } => "{summary}",
         }
     }
 }

@@ -4,7 +4,9 @@ use chereme_motion::Instant;
 use serde_json::{Value, json};
 
 use super::Language;
+use super::count::counted;
 use super::effect::{AnnotationDeed, AnnotationEffect, OperationEffect};
+use super::phrases::Phrase;
 use super::sentences::{filled_sentence, sentences};
 use crate::{ChangeKind, Changed, FieldChange};
 
@@ -61,6 +63,34 @@ pub fn operation_sentence(effect: &OperationEffect, language: Language) -> Strin
         fields["does"] = id.into();
     }
     described_value(&fields, language)
+}
+
+/// Returns the effect of an operation in English, as programs get it.
+pub(super) fn operation_summary(effect: &OperationEffect) -> String {
+    let fields = effect.to_json();
+    Phrase::from_form(effect.summary_form()).filled(|name| {
+        let quoted = name.strip_prefix("quoted ").map(|name| &fields[name]);
+        match (name, quoted.unwrap_or(&fields[name])) {
+            ("changes", Value::Array(deeds)) => {
+                let deeds: Vec<String> = deeds.iter().map(summary_of_deed).collect();
+                deeds.join(", ")
+            }
+            ("annotations" | "conflicts" | "participants", Value::Number(count)) => {
+                counted(count.as_u64().unwrap_or_default(), name)
+            }
+            (_, Value::String(text)) if quoted.is_some() => format!("{text:?}"),
+            (_, field) => described_value(field, Language::English),
+        }
+    })
+}
+
+fn summary_of_deed(deed: &Value) -> String {
+    match deed["does"].as_str() {
+        Some("annotations-added") => format!("{} added", deed["count"]),
+        Some("annotations-changed") => format!("{} changed", deed["count"]),
+        Some("annotations-removed") => format!("{} removed", deed["count"]),
+        _ => described_value(deed, Language::English),
+    }
 }
 
 /// Returns the effect of undoing an operation, as a sentence: removed things are restored.

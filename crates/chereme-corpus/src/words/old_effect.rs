@@ -151,9 +151,15 @@ fn counted_deed(part: &str) -> Option<AnnotationDeed> {
 fn valued_deed(part: &str) -> Option<AnnotationDeed> {
     let (counted, value) = part.split_once(" changed to ")?;
     let (count, noun) = counted.split_once(' ')?;
+    let of = match noun.strip_suffix('s').unwrap_or(noun) {
+        "handshape" => ValuedThing::Handshape,
+        "placement" => ValuedThing::Placement,
+        "movement" => ValuedThing::Movement,
+        "orientation" => ValuedThing::Orientation,
+        "glos" | "glosse" => ValuedThing::Gloss,
+        "annotation" => ValuedThing::Annotation,
+        _ => return None,
+    };
     let (count, value) = (count.parse().ok()?, value.to_owned());
-    let of = ValuedThing::ALL
-        .into_iter()
-        .find(|thing| thing.noun(count) == noun)?;
     Some(AnnotationDeed::AnnotationsValued { count, of, value })
 }
