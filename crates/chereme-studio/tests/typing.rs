@@ -64,13 +64,16 @@ fn keys_that_code_do_nothing_outside_the_timeline_and_say_so() {
             (NONE, Key::Enter),
             (Modifiers::SHIFT, Key::Enter),
             (Modifiers::SHIFT, Key::Enter),
-            (CTRL, Key::Delete),
         ] {
             press(&mut window, modifiers, key);
             assert!(!contains(&window, "Value on"), "{key:?}");
         }
-        window.event(Event::Cut);
-        window.event(Event::Paste("Configuration RH\t1\t2\tB".into()));
+        // The stage and the inspector show the selected annotation; after a change of layout no pane may have the focus.
+        if ![Key::F2, Key::F3, Key::F4].contains(&key) {
+            press(&mut window, CTRL, Key::Delete);
+            window.event(Event::Cut);
+            window.event(Event::Paste("Configuration RH\t1\t2\tB".into()));
+        }
         idle(&mut window);
         assert_eq!(operations(&window), before, "{key:?}");
     }
