@@ -10,7 +10,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let folder = tempfile::tempdir()?;
     let files = unpack_starter(&folder.path().join("files"))?;
 
-    // Each change is one operation under a person's name; progress is told to whoever listens.
+    // Each change is one operation under a person's name; a listener hears how far it is.
     let path = folder.path().join("starter.chereme");
     let mut corpus = Corpus::create(&path, "Ada")?;
     let mut listener = unheard;
