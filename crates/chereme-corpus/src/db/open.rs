@@ -624,6 +624,8 @@ mod tests {
         let old = folder.path().join("old.chereme");
         write_old(&old);
         assert_eq!(rules(&old), new);
+        let of_mapping = "mapping IS NULL OR json_valid(mapping)";
+        assert!(new.iter().any(|it| it.contains(of_mapping)), "{new:#?}");
         let loose = new.iter().flat_map(|it| it.lines());
         let loose: Vec<&str> = loose
             .filter(|it| it.contains("json_valid") && !it.contains("NOT NULL"))

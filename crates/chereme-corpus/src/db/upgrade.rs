@@ -49,7 +49,14 @@ pub(super) fn read_old_summaries(connection: &Connection) -> Result<()> {
 }
 
 /// Columns of JSON that may be empty.
-const MISSING_JSON: [&str; 5] = ["roles", "channel_groups", "layout", "source", "consent"];
+const MISSING_JSON: [&str; 6] = [
+    "roles",
+    "channel_groups",
+    "layout",
+    "source",
+    "consent",
+    "mapping",
+];
 
 /// Rewrites the rules of columns that may be empty: for SQLite before 3.45 `json_valid` of nothing is false, so that its
 /// `integrity_check` would find each such row broken.
