@@ -437,7 +437,8 @@ fn names_stand_in_french_lines_as_they_are() {
     ] {
         assert!(log.contains(part), "{part}\n{log}");
     }
-    let log: Value = serde_json::from_str(&said("log @c --language fr --json")).expect("JSON");
+    let log: serde_json::Value =
+        serde_json::from_str(&said("log @c --language fr --json")).expect("JSON");
     let row = &log["rows"][3];
     assert_eq!(
         (row["name"].as_str(), row["summary"].as_str()),
