@@ -81,14 +81,18 @@ impl LanguageFiles {
     /// Returns the phrases. One that is damaged, or has not the variable parts of its English, is left out.
     pub fn word_book(&self) -> &WordBook {
         self.book.get_or_init(|| {
-            let mut book = self.read_all().0;
-            book.retain(|id, phrase| match own_english().get(id) {
-                // What a number or a value chooses may name its parts as often as the language needs.
-                Some(english) if !is_sentence(id) => {
-                    english.blank_names() == phrase.blank_names()
-                }
-                _ => true,
-            });
+            let mut book = WordBook::new();
+            for file in &self.files {
+                let (mut phrases, _) = read_word_book(std::slice::from_ref(file));
+                phrases.retain(|id, phrase| match own_english().get(id) {
+                    // What a number or a value chooses may name its parts as often as the language needs.
+                    Some(english) if !is_sentence(id) => {
+                        english.blank_names() == phrase.blank_names()
+                    }
+                    _ => true,
+                });
+                book.extend(phrases);
+            }
             book
         })
     }
