@@ -139,7 +139,7 @@ fn histories(corpus: &Corpus, version: usize) {
             "import answers" => "Réponses importées : bowls, 1 participant",
             other => other,
         };
-        assert!(french.starts_with(&start), "version {version}: {french}");
+        assert!(french.starts_with(start), "version {version}: {french}");
     }
 }
 

@@ -8,7 +8,6 @@ mod words;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use chereme_corpus::remedy::Remedy;
 use chereme_corpus::words::coverage::use_word_folder;
 use chereme_corpus::words::{Language, fill, message, trouble};
 use chereme_studio::{Folders, Options};
@@ -28,8 +27,12 @@ fn main() -> ExitCode {
     let words = words.map_or(Ok(()), |folder| use_word_folder(folder.as_ref()));
     let language = arguments::language(&given).unwrap_or(system);
     if let Err(error) = words {
-        return Report { json, language }
-            .error(&error.to_string(), error.remedy().map_or("", Remedy::text));
+        return Report { json, language }.error(
+            &error.to_string(),
+            &error
+                .remedy()
+                .map_or_else(String::new, |remedy| remedy.to_string()),
+        );
     }
     match arguments::read(given) {
         Ok(Request::Help) => print(words::HELP.of(language).trim_end()),
