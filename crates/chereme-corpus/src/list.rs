@@ -451,7 +451,7 @@ mod tests {
         let mut corpus = Corpus::create(&folder.path().join("c.chereme"), "A").expect("made");
         corpus
             .store
-            .told_operation("fill", |connection| {
+            .named_operation("fill", |connection| {
                 let signer = recordings::signer_named(connection, "Anna", Some("left"))?;
                 for (name, gloss) in [("One", "BOL"), ("Two", "Écœuré")] {
                     let recording = recordings::RecordingRow {

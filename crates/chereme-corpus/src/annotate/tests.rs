@@ -44,7 +44,7 @@ fn make(path: &std::path::Path) {
     let mut corpus = Corpus::create(path, "A").expect("made");
     corpus
         .store
-        .told_operation("fill", |connection| Ok((fill(connection)?, String::new())))
+        .named_operation("fill", |connection| Ok((fill(connection)?, String::new())))
         .expect("filled");
     let component = |component| TierRole::Component {
         component,
@@ -522,7 +522,7 @@ fn an_edited_annotation_belongs_to_the_user_and_loses_its_file_times() {
              file_end_ms = end_us / 1000, source = '{\"entry\":\"e1\",\"timing\":{\"proposed\":{\"start\":true,\"end\":false}}}'";
         let work =
             |connection: &Connection| Ok((connection.execute(from_file, [])?, String::new()));
-        corpus.store.told_operation("file", work).expect("written");
+        corpus.store.named_operation("file", work).expect("written");
     };
     let sql = "SELECT id || ' ' || origin || ' ' || coalesce(file_start_ms, '-') || ' ' || coalesce(external_id, '-') || ' '
                    || coalesce(source ->> '$.entry', '-') || ' ' || (source ->> '$.timing') FROM annotation ORDER BY id";

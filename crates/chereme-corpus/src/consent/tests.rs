@@ -324,7 +324,7 @@ fn a_participant_in_other_letters_is_the_same_person() {
     say(&mut mine, "signer:Ada", &all(Audience::Nobody));
     let sql = "UPDATE tier SET participant = 'ADA ' WHERE recording_id =
                (SELECT id FROM recording WHERE name = 'escargot')";
-    let store = mine.store.told_operation("test", |connection| {
+    let store = mine.store.named_operation("test", |connection| {
         connection.execute(sql, [])?;
         Ok(((), String::new()))
     });

@@ -158,7 +158,7 @@ impl<D: Derived> Store<D> {
 
     /// Runs the work of a test as an operation with this name; the work returns its summary.
     #[cfg(test)]
-    pub(crate) fn told_operation<T>(
+    pub(crate) fn named_operation<T>(
         &mut self,
         name: &str,
         work: impl FnOnce(&Connection) -> Result<(T, String)>,
@@ -166,7 +166,7 @@ impl<D: Derived> Store<D> {
         self.operation(|connection| {
             let (value, summary) = work(connection)?;
             let name = name.to_owned();
-            Ok((value, OperationEffect::Told { name, summary }))
+            Ok((value, OperationEffect::SummaryOnly { name, summary }))
         })
     }
 

@@ -332,7 +332,7 @@ fn own_annotations_are_kept_and_a_file_of_another_take_is_refused() {
     };
     corpus
         .store
-        .told_operation("annotate", |connection| {
+        .named_operation("annotate", |connection| {
             crate::db::tiers::insert_annotation(connection, &added)?;
             Ok(((), String::new()))
         })

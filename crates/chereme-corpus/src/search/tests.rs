@@ -36,7 +36,7 @@ impl Sample {
         let work = |connection: &rusqlite::Connection| Ok((work(connection)?, "work".to_owned()));
         self.corpus
             .store
-            .told_operation("test", work)
+            .named_operation("test", work)
             .expect("works")
     }
 

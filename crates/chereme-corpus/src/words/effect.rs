@@ -148,7 +148,7 @@ pub enum OperationEffect {
     /// Derived rows were made again.
     Mend {},
     /// An operation of which only a sentence is known: an earlier program stored it, or a newer one did.
-    Told { name: String, summary: String },
+    SummaryOnly { name: String, summary: String },
 }
 
 /// What happened to a track.
@@ -253,7 +253,7 @@ impl OperationEffect {
 
     /// Returns the name and the English summary of the operation, and the JSON that is stored beside them.
     pub(crate) fn stored_texts(&self) -> (String, String, Option<String>) {
-        if let Self::Told { name, summary } = self {
+        if let Self::SummaryOnly { name, summary } = self {
             return (name.clone(), summary.clone(), None);
         }
         let json = self.to_json();
@@ -264,7 +264,7 @@ impl OperationEffect {
     /// Reads the effect of a stored operation; without JSON that this program understands, its texts are all there is.
     pub(crate) fn from_stored_texts(name: &str, summary: &str, json: Option<&str>) -> Self {
         let read = json.and_then(|json| serde_json::from_str(json).ok());
-        read.unwrap_or_else(|| Self::Told {
+        read.unwrap_or_else(|| Self::SummaryOnly {
             name: name.to_owned(),
             summary: summary.to_owned(),
         })
@@ -329,7 +329,7 @@ impl OperationEffect {
             }
             Self::Decide { .. } => "conflict {conflicts}: {decision}",
             Self::Mend {} => "tokens derived again",
-            Self::Told { .. } => "{summary}",
+            Self::SummaryOnly { .. } => "{summary}",
         }
     }
 }

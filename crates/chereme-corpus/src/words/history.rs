@@ -52,8 +52,8 @@ pub fn operation_sentence(effect: &OperationEffect, language: Language) -> Strin
         OperationEffect::FitMarkers {
             subject: Some(_), ..
         } => Some("fit-markers-of-person".to_owned()),
-        OperationEffect::Told { name, .. } => {
-            let special = format!("told-{}", name.replace(' ', "-"));
+        OperationEffect::SummaryOnly { name, .. } => {
+            let special = format!("summary-only-{}", name.replace(' ', "-"));
             let is_known = sentences(language).contains_key(sentence_id(&special).as_str());
             is_known.then_some(special)
         }

@@ -79,7 +79,7 @@ fn check_rules(corpus: &Corpus) {
 /// Checks that tokens near a change equal those derived again from everything, and that search finds the same number.
 fn check_tokens(corpus: &mut Corpus, change: &str) {
     let near = token_rows(corpus.store.read());
-    let again: Result<()> = corpus.store.told_operation("derive", |connection| {
+    let again: Result<()> = corpus.store.named_operation("derive", |connection| {
         tokens::derive(
             connection,
             1,

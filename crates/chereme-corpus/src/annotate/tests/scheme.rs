@@ -7,7 +7,7 @@ fn a_recording_gets_the_usual_tiers_or_those_of_another_in_one_step() {
     let (_folder, mut corpus) = corpus();
     corpus
         .store
-        .told_operation("fill", |connection| {
+        .named_operation("fill", |connection| {
             let empty = RecordingRow {
                 name: "Take 2".to_owned(),
                 ..recordings::recording(connection, 1)?

@@ -121,7 +121,7 @@ fn a_refused_body_is_refused_in_every_form_of_recipe() {
 fn a_body_that_a_stored_recipe_does_not_name_is_found_by_its_skeleton() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut corpus = made(folder.path());
-    let forgotten = corpus.store.told_operation("forget", |connection| {
+    let forgotten = corpus.store.named_operation("forget", |connection| {
         // As earlier versions stored them.
         connection.execute(
             "DELETE FROM recipe_input WHERE hash = '' OR address LIKE 'recording:%' AND recipe_id IN (

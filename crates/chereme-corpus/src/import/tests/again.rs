@@ -32,7 +32,7 @@ pub(super) fn has(findings: &[ReportFinding], what: &str) -> bool {
 /// Changes the annotation with this value.
 pub(super) fn edit(corpus: &mut Corpus, from: &str, to: Option<&str>) {
     use crate::db::tiers;
-    let done = corpus.store.told_operation("annotate", |connection| {
+    let done = corpus.store.named_operation("annotate", |connection| {
         let mut all = Vec::new();
         for recording in crate::db::recordings::recordings(connection)? {
             for tier in tiers::tiers(connection, recording.id)? {
@@ -336,7 +336,7 @@ fn a_tier_that_was_renamed_in_the_corpus_is_updated_by_the_file() {
     let paths = [desk.file("one.eaf", &file("BOL"))];
     let mut corpus = desk.corpus("c.chereme");
     take(&mut corpus, &paths, &ImportOptions::default());
-    let renamed = corpus.store.told_operation("change tier", |connection| {
+    let renamed = corpus.store.named_operation("change tier", |connection| {
         let all = crate::db::tiers::tiers(connection, 1)?;
         for mut row in all.into_iter().filter(|row| row.name == "Gloss") {
             row.name = "GL".to_owned();

@@ -224,7 +224,7 @@ fn an_unchanged_annotation_file_takes_back_edits_if_it_is_to() {
     let mut corpus = desk.corpus("c.chereme");
     take(&mut corpus, &path, &ImportOptions::default());
     let original = said(&corpus);
-    let done = corpus.store.told_operation("annotate", |connection| {
+    let done = corpus.store.named_operation("annotate", |connection| {
         use crate::db::tiers;
         for tier in tiers::tiers(connection, 1)? {
             for mut row in tiers::annotations(connection, tier.id)? {

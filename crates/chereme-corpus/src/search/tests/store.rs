@@ -18,7 +18,7 @@ fn dump(store: &Store) -> Vec<String> {
 
 fn add(store: &mut Store, gloss: &str) {
     store
-        .told_operation("add", |connection| {
+        .named_operation("add", |connection| {
             let sign = signs::sign_glossed(connection, gloss)?;
             signs::add_text(connection, sign, "en", "a word")?;
             let origin = columns::Origin::Lexicon;
@@ -44,7 +44,7 @@ fn undo_and_redo_walk_the_whole_history_and_survive_reopening() {
         states.push(dump(&store));
     }
     store
-        .told_operation("rename", |connection| {
+        .named_operation("rename", |connection| {
             connection.execute(
                 "UPDATE sign SET gloss = 'LION', notes = 'é' WHERE id = 2",
                 [],
@@ -101,13 +101,13 @@ fn a_failed_operation_changes_nothing_and_an_empty_one_is_not_logged() {
     let mut store = Store::create(&folder.path().join("c.chereme"), "A", |_| Ok(())).expect("made");
     add(&mut store, "BOL");
     let before = dump(&store);
-    let failed: Result<()> = store.told_operation("fail", |connection| {
+    let failed: Result<()> = store.named_operation("fail", |connection| {
         signs::sign_glossed(connection, "X")?;
         Err(Error::wrong("no"))
     });
     assert!(failed.is_err());
     store
-        .told_operation("nothing", |_| Ok(((), String::new())))
+        .named_operation("nothing", |_| Ok(((), String::new())))
         .expect("nothing");
     assert_eq!(dump(&store), before);
     assert_eq!(store.log(9).expect("log").len(), 1);

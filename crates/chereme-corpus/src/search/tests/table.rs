@@ -666,7 +666,7 @@ fn a_lost_or_outdated_index_is_rebuilt() {
 #[test]
 fn a_failed_operation_leaves_no_trace_in_the_index() {
     let mut sample = sample();
-    let failed: Result<()> = sample.corpus.store.told_operation("fail", |connection| {
+    let failed: Result<()> = sample.corpus.store.named_operation("fail", |connection| {
         let sign_id = signs::sign_glossed(connection, "CHIEN")?;
         let row = TokenRow {
             sign_id,

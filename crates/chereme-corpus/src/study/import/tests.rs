@@ -25,7 +25,7 @@ fn corpus(folder: &Path) -> (Corpus, Plan) {
         "profile": [{"name": "level", "options": [{"name": "good"}, {"name": "native"}]}],
     });
     let plan: Plan = serde_json::from_value(plan).expect("a plan");
-    let stored = corpus.store.told_operation("plan study", |connection| {
+    let stored = corpus.store.named_operation("plan study", |connection| {
         db::insert(connection, &stored::row(&plan))?;
         Ok(((), String::new()))
     });
@@ -300,7 +300,7 @@ fn a_merge_brings_the_participants_of_both_sides_and_the_studies_of_the_other() 
         name: "second".into(),
         ..plan.clone()
     };
-    let stored = theirs.store.told_operation("plan study", |connection| {
+    let stored = theirs.store.named_operation("plan study", |connection| {
         let id = db::insert(connection, &stored::row(&second))?;
         Ok((id, "second".to_owned()))
     });
@@ -341,7 +341,7 @@ fn a_merge_keeps_studies_and_people_apart_that_only_share_a_name() {
         content["seed"] = json!(seed);
         import(corpus, &write(folder.path(), "p.json", &content));
         second.design.seed = seed;
-        let stored = corpus.store.told_operation("plan study", |connection| {
+        let stored = corpus.store.named_operation("plan study", |connection| {
             db::insert(connection, &stored::row(&second))?;
             Ok(((), String::new()))
         });
@@ -384,7 +384,7 @@ fn a_merge_does_not_mix_answers_to_two_versions_of_a_plan() {
             let mut own = plan.clone();
             if planned {
                 own.design.seed = seed;
-                let stored = corpus.store.told_operation("plan study", |connection| {
+                let stored = corpus.store.named_operation("plan study", |connection| {
                     let study = stored::study(connection, "bowls")?.expect("a study");
                     db::replace(connection, study.id, &stored::row(&own))?;
                     Ok(((), String::new()))

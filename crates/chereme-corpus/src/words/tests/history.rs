@@ -220,7 +220,7 @@ fn every_operation_has_its_sentence_with_all_its_names_in_both_languages() {
         "fit-markers-of-person",
         "undone",
         "delete-undone",
-        "told",
+        "summary-only",
     ];
     used.extend(further.map(str::to_owned));
     used.insert("annotations-removed-undone".to_owned());
@@ -234,7 +234,7 @@ fn every_operation_has_its_sentence_with_all_its_names_in_both_languages() {
         .keys()
         .filter_map(|id| id.strip_prefix("history-"));
     let known = known
-        .filter(|id| !id.starts_with("told-") && !id.starts_with("row-"))
+        .filter(|id| !id.starts_with("summary-only-") && !id.starts_with("row-"))
         .map(str::to_owned);
     assert_eq!(known.collect::<BTreeSet<_>>(), used);
 }
@@ -316,7 +316,7 @@ fn operations_are_sentences_in_both_languages() {
             "Valeurs proposées acceptées : 2, dans Un",
         ),
         (
-            OperationEffect::Told {
+            OperationEffect::SummaryOnly {
                 name: "novel".into(),
                 summary: "x".into(),
             },
@@ -429,8 +429,8 @@ fn old_summaries_are_read_if_they_have_one_reading() {
         ("novel", "x", "novel : x"),
     ] {
         let effect = effect_of_summary(name, summary);
-        let told = OperationEffect::from_stored_texts(name, summary, None);
-        let effect = effect.unwrap_or(told);
+        let unread = OperationEffect::from_stored_texts(name, summary, None);
+        let effect = effect.unwrap_or(unread);
         assert_eq!(operation_sentence(&effect, Language::French), french);
         let (stored_name, stored_summary, _) = effect.stored_texts();
         assert_eq!(
