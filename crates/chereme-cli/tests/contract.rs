@@ -416,8 +416,9 @@ fn names_stand_in_french_lines_as_they_are() {
         text(&done.stdout)
     };
     said("import @c 'more/talk in Paris to Lyon.bvh' 'more/talk in Paris to Lyon.eaf'");
-    let done =
-        said("annotate @c --in 'talk in Paris to Lyon' add Gloss 'A in B' --start 1.6 --end 1.8 --language fr");
+    let done = said(
+        "annotate @c --in 'talk in Paris to Lyon' add Gloss 'A in B' --start 1.6 --end 1.8 --language fr",
+    );
     assert!(
         done.starts_with("1 annotation ajoutée dans talk in Paris to Lyon"),
         "{done}"
