@@ -1,9 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-render-drew-frames-kb = drew { $what } to { $path }: { $n } frames, { $size } KB
-message-command-render-drew-1-frame-kb = drew { $what } to { $path }: 1 frame, { $size } KB
-message-command-render-drew-symbols-kb = drew { $what } to { $path }: { $n } symbols, { $size } KB
-message-command-render-drew-1-symbol-kb = drew { $what } to { $path }: 1 symbol, { $size } KB
+line-command-render-drew-frames-or-symbols = drew { $what } to { $path }: { $drawn }, { $size } KB
 line-command-render-has-no-movement-own-notation-animated = { $name } has no movement of its own: its notation was animated on { $body }
 line-command-render-has-no-notation-transcribed-from-movement = { $name } has no notation: it was transcribed from its movement, and not stored
 message-command-render-speed-number-from = a speed is a number from { $least } to { $most }

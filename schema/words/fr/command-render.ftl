@@ -1,9 +1,6 @@
 ## Messages: `{ $name }` is a variable part.
 
-message-command-render-drew-frames-kb = { $what } dessiné dans { $path } : { $n } images, { $size } Ko
-message-command-render-drew-1-frame-kb = { $what } dessiné dans { $path } : 1 image, { $size } Ko
-message-command-render-drew-symbols-kb = { $what } dessiné dans { $path } : { $n } symboles, { $size } Ko
-message-command-render-drew-1-symbol-kb = { $what } dessiné dans { $path } : 1 symbole, { $size } Ko
+line-command-render-drew-frames-or-symbols = { $what } dessiné dans { $path } : { $drawn }, { $size } Ko
 line-command-render-has-no-movement-own-notation-animated = { $name } n’a pas de mouvement à lui : sa notation a été animée sur { $body }
 line-command-render-has-no-notation-transcribed-from-movement = { $name } n’a pas de notation : il a été transcrit de son mouvement, sans être enregistré
 message-command-render-speed-number-from = une vitesse est un nombre de { $least } à { $most }

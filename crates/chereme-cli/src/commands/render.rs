@@ -146,18 +146,17 @@ fn say(picture: &Picture, output: &mut Output) -> Result<()> {
             &[&picture.title],
         )?;
     }
-    let symbols = picture.path.extension().is_some_and(|it| it == "svg");
-    output.line(format!(
-        "drew {} to {}: {} {}, {} KB",
-        picture.title,
-        picture.path.display(),
-        picture.frames,
-        match (symbols, picture.frames) {
-            (true, 1) => "symbol",
-            (true, _) => "symbols",
-            (false, 1) => "frame",
-            (false, _) => "frames",
-        },
-        picture.bytes.div_ceil(1024)
-    ))
+    let noun = match picture.path.extension() {
+        Some(ending) if ending == "svg" => "symbols",
+        _ => "frames",
+    };
+    output.filled_line(
+        "drew {what} to {path}: {drawn}, {size} KB",
+        &[
+            &picture.title,
+            &picture.path.display(),
+            &output.counted(picture.frames as u64, noun),
+            &picture.bytes.div_ceil(1024),
+        ],
+    )
 }
