@@ -671,8 +671,13 @@ fn a_language_is_a_folder_and_may_be_the_users_own() {
         missing.contains("tlh/own.ftl:3: the variable parts of menu-edit-undo"),
         "{missing}"
     );
-    let undo = missing.lines().find(|line| line.starts_with("menu-edit-undo "));
-    assert!(undo.is_some_and(|line| line.contains(" Undo ")), "{missing}");
+    let undo = missing
+        .lines()
+        .find(|line| line.starts_with("menu-edit-undo "));
+    assert!(
+        undo.is_some_and(|line| line.contains(" Undo ")),
+        "{missing}"
+    );
     let help = text(&run("--language tlh undo --help").stdout);
     assert!(
         help.contains("De’wI’") && help.contains("Usage: "),

@@ -92,7 +92,7 @@ fn compared_with_english(code: &str, files: &LanguageFiles) -> LanguageCoverage 
     for (id, phrase) in &written {
         let fault = match english.get(id) {
             None => format!("{id} is no phrase of the program"),
-            Some(same) if same.blank_names() == phrase.blank_names() => continue,
+            Some(same) if phrase.can_stand_for(id, same) => continue,
             Some(same) => format!("the variable parts of {id} are not those of: {}", same.text),
         };
         let place = phrase.place.clone();

@@ -55,6 +55,13 @@ impl StoredPhrase {
         names.sort_unstable();
         names
     }
+
+    /// Returns whether it can stand for the English phrase with this id: it has the same variable parts. A sentence or a noun,
+    /// in which a number or a value chooses, may name them as often as the language needs.
+    #[must_use]
+    pub fn can_stand_for(&self, id: &str, english: &Self) -> bool {
+        is_sentence(id) || self.blank_names() == english.blank_names()
+    }
 }
 
 /// The phrases of a language by their ids.
@@ -85,11 +92,8 @@ impl LanguageFiles {
             for file in &self.files {
                 let (mut phrases, _) = read_word_book(std::slice::from_ref(file));
                 phrases.retain(|id, phrase| match own_english().get(id) {
-                    // What a number or a value chooses may name its parts as often as the language needs.
-                    Some(english) if !is_sentence(id) => {
-                        english.blank_names() == phrase.blank_names()
-                    }
-                    _ => true,
+                    Some(english) => phrase.can_stand_for(id, english),
+                    None => true,
                 });
                 book.extend(phrases);
             }
