@@ -315,8 +315,8 @@ fn licence_expressions_are_evaluated_correctly() {
     }
 }
 
-/// The modules of the corpus that its database module may use.
-const BELOW_THE_DATABASE: [&str; 3] = ["db", "error", "progress"];
+/// The modules of the corpus that its database module may use. `words` has what an operation did, which the history stores.
+const BELOW_THE_DATABASE: [&str; 4] = ["db", "error", "progress", "words"];
 
 /// Returns the code of a file without its tests.
 fn code(text: &str) -> &str {

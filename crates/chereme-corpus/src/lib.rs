@@ -26,7 +26,6 @@ mod edit;
 mod error;
 mod export;
 mod face;
-mod file_identity;
 mod film;
 mod foreign_code;
 mod forms;
@@ -62,7 +61,6 @@ mod suggest;
 mod tokens;
 mod track;
 mod transcribe;
-mod unfinished;
 mod usable;
 mod values;
 pub mod words;
@@ -128,6 +126,7 @@ pub use cued::{
 };
 pub use db::columns::{AnnotationOrigin, Origin, ValueState};
 pub use db::delete::Belongings;
+pub use db::file_identity::FileIdentity;
 pub use db::recordings::{MediaTrackRow, RecordingRow, SignerRow};
 pub use db::signs::TokenRow;
 pub use db::tiers::{TierRow, TierShown};
@@ -145,7 +144,6 @@ pub use face::{
     FaceFit, FaceNumber, FaceProposals, FaceReport, FaceScore, FittedNumber, FoundExpression,
     MilestoneOptions, OnsetRow, Onsets, Quartiles, Rank, Ranked, ScoredChannel,
 };
-pub use file_identity::FileIdentity;
 pub use film::{Film, FilmFacts, FilmPicture, FilmTimes, Planes};
 pub use foreign_code::hide_handled_panics;
 pub use forms::{Empty, FIELD_SETS, FormSource};
@@ -226,6 +224,15 @@ impl Corpus {
             drafted: recombine::Drafted::default(),
             faces: RefCell::default(),
         }
+    }
+
+    /// Writes the whole corpus to a new file, even if its own file was deleted while it is open.
+    ///
+    /// # Errors
+    /// [`Error::File`] if something exists there already, or if the disk or the database fails;
+    /// then nothing is left there.
+    pub fn save_copy(&self, to: &Path) -> Result<()> {
+        self.store.copy(to)
     }
 
     /// Opens the corpus at `path`; `author` is recorded with every change. A file of an older version is upgraded, and

@@ -11,6 +11,7 @@ pub(crate) mod contents;
 pub(crate) mod delete;
 pub(crate) mod dump;
 pub(crate) mod edits;
+pub(crate) mod file_identity;
 pub(crate) mod history;
 pub(crate) mod info;
 pub(crate) mod inventories;
@@ -32,6 +33,7 @@ mod stale_log;
 pub(crate) mod studies;
 pub(crate) mod tiers;
 pub(crate) mod tracks;
+pub(crate) mod unfinished;
 pub(crate) mod upgrade;
 
 use std::path::{Path, PathBuf};
@@ -39,10 +41,10 @@ use std::time::Duration;
 
 use rusqlite::{Connection, TransactionBehavior};
 
+use self::file_identity::FileIdentity;
+use self::unfinished::Unfinished;
 use crate::error::{Error, Result};
-use crate::file_identity::FileIdentity;
 use crate::progress::{Progress, Step, Unit, unheard};
-use crate::unfinished::Unfinished;
 use crate::words::effect::OperationEffect;
 
 pub(crate) use history::log as history_log;

@@ -11,9 +11,9 @@ use rusqlite::config::DbConfig;
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, ErrorCode, OpenFlags};
 
+use super::unfinished::{Unfinished, remove_leftovers};
 use super::{damaged, roles, seals, stale_log, upgrade};
 use crate::error::{Error, Result};
-use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// Marks the file as a corpus: the letters `Cher`.
 const APPLICATION_ID: i32 = i32::from_be_bytes(*b"Cher");

@@ -71,7 +71,7 @@ fn is_whole(name: impl AsRef<Path>) -> bool {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
-    use crate::{Corpus, KeptSearch};
+    use crate::{Corpus, KeptSearch, unheard};
 
     fn keep(corpus: &mut Corpus, name: &str) {
         for at in 0..40 {
@@ -114,7 +114,7 @@ mod tests {
             assert_eq!(count(&path), searches, "{file}");
             assert_eq!(beside(&path, "-wal.stale").exists(), stale, "{file}");
             let mut corpus = Corpus::open(&path, "A").expect("opened");
-            let mut hear = crate::unheard;
+            let mut hear = unheard;
             let report = corpus.check(false, &mut crate::Progress::new(&mut hear));
             assert_eq!(report.expect("checked").faults, [], "{file}");
         }

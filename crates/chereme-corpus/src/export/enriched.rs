@@ -15,13 +15,13 @@ use crate::address::Stretch;
 use crate::curves;
 use crate::db::motion::{self, hex};
 use crate::db::recordings::{self, RecordingRow};
+use crate::db::unfinished::{Unfinished, remove_leftovers};
 use crate::db::upgrade::NONMANUALS;
 use crate::db::{dump, recipes, signs, tiers, tracks};
 use crate::error::{Error, Result};
 use crate::inventories;
 use crate::progress::{Progress, Step, Unit};
 use crate::track::{self, TrackKind};
-use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// The guide to the folder.
 const ABOUT: &str = include_str!("enriched.md");

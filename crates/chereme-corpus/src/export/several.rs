@@ -15,10 +15,10 @@ use super::{
 use crate::address::{self, Address, Name};
 use crate::db::list;
 use crate::db::tiers::{self, TierRow};
+use crate::db::unfinished::remove_leftovers_in;
 use crate::db::{recordings, signs};
 use crate::error::{Error, Result};
 use crate::progress::{Progress, Step, Unit};
-use crate::unfinished::remove_leftovers_in;
 
 /// The number of names that a note lists.
 const SHOWN: usize = 12;

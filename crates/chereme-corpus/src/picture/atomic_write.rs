@@ -4,8 +4,8 @@ use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
+use crate::db::unfinished::{Unfinished, remove_leftovers};
 use crate::error::{Error, Result};
-use crate::unfinished::{Unfinished, remove_leftovers};
 
 /// Writes a file under a temporary name beside its path, and renames it when it is complete.
 pub(crate) fn write(

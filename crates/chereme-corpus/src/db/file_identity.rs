@@ -1,10 +1,7 @@
-//! The file of an open corpus, which may be deleted or moved meanwhile, and copies of the corpus.
+//! The file of an open corpus, which may be deleted or moved meanwhile.
 
 use std::fs::Metadata;
 use std::path::{Path, PathBuf};
-
-use crate::Corpus;
-use crate::error::Result;
 
 /// Identity of the file at a path, at one moment.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -51,20 +48,10 @@ fn id(_: &Metadata) -> Option<(u64, u64)> {
     None
 }
 
-impl Corpus {
-    /// Writes the whole corpus to a new file, even if its own file was deleted while it is open.
-    ///
-    /// # Errors
-    /// [`Error::File`](crate::Error::File) if something exists there already, or if the disk or the database fails;
-    /// then nothing is left there.
-    pub fn save_copy(&self, to: &Path) -> Result<()> {
-        self.store.copy(to)
-    }
-}
-
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
+    use crate::Corpus;
 
     fn made(folder: &Path) -> Corpus {
         let mut corpus = Corpus::create(&folder.join("a.chereme"), "A").expect("made");
