@@ -43,6 +43,13 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
     let (again, findings) = read(&file)?;
     assert!(findings.is_empty(), "{findings:?}");
-    assert_eq!(again.tiers[0].annotations, transcript.tiers[0].annotations);
+    for (read, written) in again.tiers[0]
+        .annotations
+        .iter()
+        .zip(&transcript.tiers[0].annotations)
+    {
+        assert_eq!((read.span, &read.value), (written.span, &written.value));
+    }
+    assert_eq!(again.tiers[0].annotations.len(), 2);
     Ok(())
 }

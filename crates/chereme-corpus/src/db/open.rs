@@ -438,6 +438,8 @@ fn take_steps(
     }
     if version < EFFECTS_STORED_FROM {
         upgrade::read_old_summaries(&transaction)?;
+        // An index of version 12 has no seal of its own; the next search builds it again.
+        super::search::delete_files(&transaction)?;
     }
     upgrade::rewrite_json_rules(&transaction)?;
     roles::add_missing(&transaction)?;
