@@ -391,6 +391,8 @@ fn from_degrees(head: &mut [[f64; 3]], unit: &str) -> Option<Finding> {
     let remedy = "write the unit into the titles, such as HeadYaw [deg] or HeadYaw [rad]";
     let finding = match unit {
         "rad" => return None,
+        // A head that was not tracked turns nowhere in any unit.
+        _ if most == 0.0 => return None,
         "deg" => Finding::note(
             None,
             format!("the turns of the head are degrees and reach {most}: they were converted"),
