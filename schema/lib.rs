@@ -1,6 +1,6 @@
 //! The data files of Chereme, embedded in its programs: the folders `schema` and `corpus` of the repository.
 //!
-//! The crate lists and returns files; what they mean is known to the crates that read them.
+//! The crate lists and returns files; the crates that read them know their meaning.
 
 /// Every file with its path, such as `schema/faces/house.json`, sorted by path in each folder.
 const FILES: &[(&str, &str)] = include!(concat!(env!("OUT_DIR"), "/files.rs"));

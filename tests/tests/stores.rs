@@ -124,7 +124,7 @@ fn corpora_of_earlier_versions_open_without_loss() {
     }
 }
 
-/// What operations did is known in all languages, also of those whose summary alone was stored.
+/// Operations are described in all languages, also those that were stored with a summary alone.
 fn histories(corpus: &Corpus, version: usize) {
     for row in corpus.log(usize::MAX).expect("log") {
         let french = operation_sentence(&row.effect, Language::French);

@@ -410,7 +410,7 @@ fn based(carrier: Option<(usize, Vec3)>, travels: bool, pose: &ModelPose) -> Vec
     }
 }
 
-/// The way of the joint that carries a body.
+/// The travel of the joint that carries a body.
 #[derive(Clone, Copy)]
 struct BodyTravel {
     joint: usize,

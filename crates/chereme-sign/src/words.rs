@@ -18,7 +18,7 @@ pub enum Language {
     English,
     /// French, in which every text is written, too.
     French,
-    /// A language that is a folder of words, by its code; what the folder lacks is English.
+    /// A language that is a folder of words, by its code; words that the folder lacks are English.
     Other(&'static str),
 }
 

@@ -147,7 +147,7 @@ pub enum OperationEffect {
     },
     /// Derived rows were made again.
     Mend {},
-    /// An operation of which only a sentence is known: an earlier program stored it, or a newer one did.
+    /// An operation with no more than a sentence: an earlier program stored it, or a newer one did.
     SummaryOnly { name: String, summary: String },
 }
 
@@ -206,7 +206,7 @@ pub enum AnnotationDeed {
     AnnotationsRevalued { count: u64 },
 }
 
-/// What the value of an annotation says something about.
+/// The thing that the value of an annotation describes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[expect(missing_docs, reason = "each is a word of the field")]

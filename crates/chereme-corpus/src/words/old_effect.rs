@@ -1,7 +1,7 @@
 //! Reads the summaries that programs up to version 12 of the schema stored, when such a file is upgraded.
 //!
-//! A summary of which two readings are possible, because a name in it holds one of its separating words, is not read: it
-//! stays a text.
+//! A name may hold one of the words that separate the parts of a summary. Such a summary can be read in two ways, so it is
+//! not read and stays a text.
 
 use serde_json::{Map, Value};
 

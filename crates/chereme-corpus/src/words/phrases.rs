@@ -165,14 +165,14 @@ impl PhraseBook {
 
 /// Returns the phrases of a language; nothing for English, which is the language of the messages themselves.
 pub(super) fn phrase_book(language: Language) -> Option<&'static PhraseBook> {
-    static BOOKS: LazyLock<BTreeMap<&str, OnceLock<PhraseBook>>> = LazyLock::new(|| {
+    static BOOKS_BY_CODE: LazyLock<BTreeMap<&str, OnceLock<PhraseBook>>> = LazyLock::new(|| {
         let codes = language_files().keys().map(String::as_str);
         codes.map(|code| (code, OnceLock::new())).collect()
     });
     if language == Language::English {
         return None;
     }
-    let book = BOOKS.get(language.code())?.get_or_init(|| {
+    let book = BOOKS_BY_CODE.get(language.code())?.get_or_init(|| {
         let mut book = PhraseBook::from_files(language);
         let beside_code = super::described_messages().filter(|_| language == Language::French);
         book.add_messages(beside_code);

@@ -32,13 +32,13 @@ pub(super) fn filled_sentence(
 
 /// Returns the messages of the files; a damaged entry is left out, and a test finds it.
 pub(super) fn sentences(language: Language) -> &'static Sentences {
-    static ALL: OnceLock<BTreeMap<&str, Sentences>> = OnceLock::new();
-    static NONE: Sentences = Sentences::new();
-    let all = ALL.get_or_init(|| {
+    static SENTENCES_BY_CODE: OnceLock<BTreeMap<&str, Sentences>> = OnceLock::new();
+    static NO_SENTENCES: Sentences = Sentences::new();
+    let all = SENTENCES_BY_CODE.get_or_init(|| {
         let codes = language_files().keys().map(String::as_str);
         codes.map(|code| (code, read_sentences(code))).collect()
     });
-    all.get(language.code()).unwrap_or(&NONE)
+    all.get(language.code()).unwrap_or(&NO_SENTENCES)
 }
 
 fn read_sentences(code: &str) -> Sentences {

@@ -141,9 +141,9 @@ pub fn add_word_files(files: Vec<WordFile>) -> Result<(), WordFileError> {
 /// Returns the files of each language by its code.
 #[must_use]
 pub fn language_files() -> &'static BTreeMap<String, LanguageFiles> {
-    static LANGUAGES: LazyLock<BTreeMap<String, LanguageFiles>> =
+    static FILES_BY_LANGUAGE: LazyLock<BTreeMap<String, LanguageFiles>> =
         LazyLock::new(|| sorted_by_language(ADDED_FILES.get_or_init(Vec::new).clone()));
-    &LANGUAGES
+    &FILES_BY_LANGUAGE
 }
 
 /// Returns the program's own files and `added` ones by the codes of their languages.
@@ -170,13 +170,13 @@ fn own_files() -> impl Iterator<Item = WordFile> {
 /// Returns the phrases of the program in English, which every other language follows.
 #[must_use]
 pub fn own_english() -> &'static WordBook {
-    static ENGLISH: LazyLock<WordBook> = LazyLock::new(|| {
+    static ENGLISH_BOOK: LazyLock<WordBook> = LazyLock::new(|| {
         let files: Vec<WordFile> = own_files()
             .filter(|file| file.path.starts_with("en/"))
             .collect();
         read_word_book(&files).0
     });
-    &ENGLISH
+    &ENGLISH_BOOK
 }
 
 /// Returns the form of a phrase in `language`, otherwise in English.
