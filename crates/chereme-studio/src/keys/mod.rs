@@ -183,12 +183,13 @@ impl Keys {
 
 impl KeyContext {
     /// Returns whether a chord may carry out an action here. One that codes does so only in the rows of the timeline, and
-    /// plays also where the movement is looked at; another one edits annotations only in the panes that show them.
+    /// plays also where the movement is looked at; another one edits annotations only while
+    /// a pane that shows them has the focus.
     fn may_act(self, chord: Chord, row: &ActionRow) -> bool {
         use PaneKind::{Film, Inspector, Stage, Timeline};
         if !chord.is_for_coding() {
             let in_sight = [Timeline, Stage, Film, Inspector];
-            return !row.edits || self.pane.is_none_or(|pane| in_sight.contains(&pane));
+            return !row.edits || self.pane.is_some_and(|pane| in_sight.contains(&pane));
         }
         let looking = [None, Some(Stage), Some(Film)].contains(&self.pane) && !self.focused;
         match row.owner {
@@ -320,14 +321,13 @@ mod tests {
             let editing = ACTIONS.iter().filter(|row| row.edits);
             let chords = editing.flat_map(|row| keys.of(row.action));
             for chord in chords.filter(|it| !it.is_for_coding()) {
-                for pane in PaneKind::ALL {
-                    let place = KeyContext {
-                        pane: Some(pane),
-                        ..AT
-                    };
+                // After a change of layout no pane may have the focus.
+                for pane in PaneKind::ALL.map(Some).into_iter().chain([None]) {
+                    let place = KeyContext { pane, ..AT };
                     let action = keys.action(*chord, place);
                     let edits = action.is_some_and(|it| it.row().edits);
-                    let wanted = [Timeline, Stage, Film, Inspector].contains(&pane);
+                    let in_sight = [Timeline, Stage, Film, Inspector].map(Some);
+                    let wanted = in_sight.contains(&pane);
                     assert_eq!(edits, wanted, "{keymap:?} {pane:?} {chord}");
                 }
             }
